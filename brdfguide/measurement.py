@@ -1,0 +1,76 @@
+"""What an instrument reported: values with their directions, channels and doubts."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from .geometry import Geometry
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something noticed: a stable code for programs, a sentence for people, the numbers behind it."""
+
+    code: str
+    text: str
+    severity: str = "note"  # note, warning, error
+    consequence: str = ""  # what it changes in the answer
+    option: str = ""  # the command-line option that overrides it
+    numbers: tuple[tuple[str, float], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """BRDF values [1/sr] of shape (samples, channels); NaN where there is none.
+
+    `geom` has angles of shape (samples, 1) and wavelengths [µm] of shape (channels,). A single-wavelength scan
+    in the plane of incidence is the case channels = 1.
+    """
+
+    geom: Geometry
+    brdf: np.ndarray
+    channels: tuple[str, ...] = ("brdf",)
+    stderr: np.ndarray | None = None  # standard errors [1/sr], in the shape of brdf
+    weights: np.ndarray | None = None  # (samples, 1): what each direction stands for; None: all alike
+    solid_angle: float | None = None  # of the detector [sr]
+    name: str = ""
+    format: str = ""
+    findings: tuple[Finding, ...] = ()  # rows dropped and conventions assumed, in the reader's order
+
+    def __post_init__(self):
+        samples, channels = self.brdf.shape
+        if self.geom.shape != (samples, 1) or len(self.channels) != channels:
+            raise ValueError(f"brdf is {self.brdf.shape}, geom {self.geom.shape}, channels {len(self.channels)}")
+
+    @cached_property
+    def usable(self) -> np.ndarray:
+        """(samples, channels): finite, positive and above the horizon; the rest is censored, never clipped."""
+        with np.errstate(invalid="ignore"):
+            return np.isfinite(self.brdf) & (self.brdf > 0) & self.geom.lit
+
+    @property
+    def censored(self) -> int:
+        """How many values are missing or not positive."""
+        return int(self.usable.size - np.count_nonzero(self.usable))
+
+    @cached_property
+    def in_plane(self) -> bool:
+        """Whether every direction lies in the plane of incidence, to 0.1°."""
+        return bool(np.all(self.geom.off_plane_deg < 0.1))
+
+    @cached_property
+    def theta_i_groups(self) -> dict[float, np.ndarray]:
+        """Incidence angle [deg], to 0.1° -> its rows."""
+        angles = np.round(self.geom.theta_i_deg[:, 0], 1)
+        order = np.argsort(angles, kind="stable")
+        values, starts = np.unique(angles[order], return_index=True)
+        return dict(zip(values.tolist(), np.split(order, starts[1:])))
+
+    def __getitem__(self, rows) -> "Measurement":
+        """The same for some of the rows: a slice, mask or list of row numbers."""
+        pick = lambda values: None if values is None else values[rows]  # noqa: E731
+        return replace(self, geom=self.geom[rows], brdf=self.brdf[rows], stderr=pick(self.stderr), weights=pick(self.weights))
+
+    def noting(self, *findings: Finding) -> "Measurement":
+        return replace(self, findings=self.findings + findings)

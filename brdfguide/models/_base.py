@@ -1,0 +1,177 @@
+"""What every file in this folder provides: one reflectance law with its parameters, limits and proofs.
+
+A surface is a `Sum` of terms. Each term is linear in at most one parameter, its amplitude, so that amplitudes
+are solved for and never searched for.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import InputError, choices
+from ..geometry import Geometry
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number of a law. Bounds are closed and lie where the law is defined."""
+
+    name: str
+    default: float
+    low: float
+    high: float
+    unit: str = ""
+    log: bool = False  # fitted as its logarithm
+    linear: bool = False  # the amplitude: brdf is proportional to it
+    per_channel: bool = False  # has a value for each wavelength or colour
+    free: bool = True  # False: kept at its value unless the user frees it
+    meaning: str = ""
+    starts: tuple[float, ...] = ()  # values worth starting a fit from; empty: spread over the bounds
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A number that follows from the parameters and that people ask for, such as tau = sigma/slope."""
+
+    name: str
+    of: Callable[..., float]  # keyword arguments: the parameters
+    unit: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A value computed at 50 digits or printed in a paper, away from the defaults."""
+
+    geom: Geometry
+    values: Mapping[str, float]
+    f: float
+    source: str
+    rtol: float = 1e-12
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A place where naive code breaks; `f` where the right value is known."""
+
+    why: str
+    geom: Geometry
+    values: Mapping[str, float] = field(default_factory=dict)
+    f: float | None = None
+    rtol: float = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """One term: a law, its parameters and what is known about it. Calling it gives the BRDF [1/sr], 0 below the horizon."""
+
+    module: str
+    brdf: Callable[..., np.ndarray]
+    parameters: tuple[Parameter, ...]
+    roles: tuple[str, ...] = ("surface",)  # of: subsurface, surface, mirror
+    summary: str = ""  # what it is good and bad at, in a sentence
+    # gradient(geom, names, **values) -> {name: df/dname}; names it leaves out are differenced
+    gradient: Callable[..., dict[str, np.ndarray]] | None = None
+    # mirror(geom, **values) -> reflectance of the ideal specular part at theta_i, dimensionless
+    mirror: Callable[..., np.ndarray] | None = None
+    derived: tuple[Derived, ...] = ()
+    # feature that a scene may not need -> the law without it, same parameters; see pruning
+    without: Mapping[str, Callable[..., np.ndarray]] = field(default_factory=dict)
+    pins: tuple[Pin, ...] = ()
+    extremes: tuple[Extreme, ...] = ()
+    breaks: Mapping[str, str] = field(default_factory=dict)  # law of the contract -> why this model breaks it
+    source: str = ""
+
+    @property
+    def name(self) -> str:
+        """As typed by users: the file's name with hyphens."""
+        return self.module.rpartition(".")[2].replace("_", "-")
+
+    @property
+    def amplitude(self) -> str | None:
+        """The parameter that the law is linear in."""
+        return next((p.name for p in self.parameters if p.linear), None)
+
+    def parameter(self, name: str) -> Parameter:
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
+        raise choices(f"parameter of {self.name}", name, [p.name for p in self.parameters])
+
+    def defaults(self) -> dict[str, float]:
+        return {p.name: p.default for p in self.parameters}
+
+    def __call__(self, geom: Geometry, **values) -> np.ndarray:
+        """BRDF [1/sr] in the broadcast shape of `geom`, its wavelength and the values; parameters not given keep their defaults."""
+        for name in values.keys() - self.defaults().keys():
+            self.parameter(name)
+        values = {**self.defaults(), **values}
+        if geom.all_lit:
+            return self.brdf(geom, **values)
+        return np.where(geom.lit, self.brdf(geom.where_lit(), **values), 0.0)
+
+
+@dataclass(frozen=True)
+class Term:
+    """A model in its place in a sum; the label tells apart two lobes of one kind."""
+
+    label: str
+    model: Model
+
+
+@dataclass(frozen=True, eq=False)
+class Sum:
+    """Terms that add up to a surface, such as `lambertian+ward`. Values are keyed `ward.alpha`."""
+
+    name: str
+    terms: tuple[Term, ...]
+    # fixed values that make this a candidate of its own, such as {"ggx.k": 0.0}; shown to users
+    fixed: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        return {f"{t.label}.{p.name}": p for t in self.terms for p in t.model.parameters}
+
+    def defaults(self) -> dict[str, float]:
+        return {**{key: p.default for key, p in self.parameters.items()}, **self.fixed}
+
+    def of_term(self, term: Term, values: Mapping) -> dict:
+        """The values of one term, under the bare names of its parameters."""
+        prefix = term.label + "."
+        return {key.removeprefix(prefix): value for key, value in values.items() if key.startswith(prefix)}
+
+    def __call__(self, geom: Geometry, values: Mapping) -> np.ndarray:
+        """BRDF [1/sr]; raises InputError for a key that is no parameter of any term."""
+        for key in values:
+            if key not in self.parameters:
+                raise choices(f"parameter of {self.name}", key, list(self.parameters))
+        values = {**self.fixed, **values}
+        total = 0.0
+        for term in self.terms:
+            total = total + term.model(geom, **self.of_term(term, values))
+        return total
+
+    def mirror(self, geom: Geometry, values: Mapping) -> np.ndarray:
+        """Reflectance of the ideal specular parts at theta_i, dimensionless; 0 if no term has one."""
+        values = {**self.fixed, **values}
+        total = np.zeros(geom.shape)
+        for term in self.terms:
+            if term.model.mirror is not None:
+                total = total + term.model.mirror(geom, **{**term.model.defaults(), **self.of_term(term, values)})
+        return total
+
+    @property
+    def has_mirror(self) -> bool:
+        return any(term.model.mirror is not None for term in self.terms)
+
+    @property
+    def roles(self) -> set[str]:
+        return {role for term in self.terms for role in term.model.roles}
+
+
+def bounded(parameter: Parameter, value: float) -> float:
+    """`value`, if it lies within the bounds where the law holds. Raises InputError otherwise."""
+    if not parameter.low <= value <= parameter.high:
+        raise InputError(f"{parameter.name} = {value:g} is outside {parameter.low:g}..{parameter.high:g} {parameter.unit}".rstrip())
+    return value

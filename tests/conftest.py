@@ -1,0 +1,24 @@
+"""Shared by all tests: NumPy raises on overflow, division and invalid; real data where it is present."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+DATA = Path(os.environ.get("BRDFGUIDE_DATA", ROOT.parent / "shared" / "data"))
+
+
+@pytest.fixture(autouse=True)
+def numpy_raises():
+    with np.errstate(over="raise", divide="raise", invalid="raise"):
+        yield
+
+
+@pytest.fixture(scope="session")
+def data() -> Path:
+    """The folder of real measurements; tests that need it are skipped where it is absent."""
+    if not DATA.is_dir():
+        pytest.skip(f"no measurements at {DATA}; set BRDFGUIDE_DATA")
+    return DATA
