@@ -128,13 +128,15 @@ class Sum:
     terms: tuple[Term, ...]
     # fixed values that make this a candidate of its own, such as {"ggx.k": 0.0}; shown to users
     fixed: Mapping[str, float] = field(default_factory=dict)
+    free: tuple[str, ...] = ()  # parameters that are fitted here though a law keeps them fixed by itself
+    start: Mapping[str, float] = field(default_factory=dict)  # where a guideline would begin, in place of the defaults
 
     @property
     def parameters(self) -> dict[str, Parameter]:
         return {f"{t.label}.{p.name}": p for t in self.terms for p in t.model.parameters}
 
     def defaults(self) -> dict[str, float]:
-        return {**{key: p.default for key, p in self.parameters.items()}, **self.fixed}
+        return {**{key: p.default for key, p in self.parameters.items()}, **self.start, **self.fixed}
 
     def of_term(self, term: Term, values: Mapping) -> dict:
         """The values of one term, under the bare names of its parameters."""
@@ -146,7 +148,7 @@ class Sum:
         for key in values:
             if key not in self.parameters:
                 raise choices(f"parameter of {self.name}", key, list(self.parameters))
-        values = {**self.fixed, **values}
+        values = {**self.start, **self.fixed, **values}
         total = 0.0
         for term in self.terms:
             total = total + term.model(geom, **self.of_term(term, values))
@@ -154,7 +156,7 @@ class Sum:
 
     def mirror(self, geom: Geometry, values: Mapping) -> np.ndarray:
         """Reflectance of the ideal specular parts at theta_i, dimensionless; 0 if no term has one."""
-        values = {**self.fixed, **values}
+        values = {**self.start, **self.fixed, **values}
         total = np.zeros(geom.shape)
         for term in self.terms:
             if term.model.mirror is not None:
