@@ -22,7 +22,8 @@ class Parameter:
     low: float
     high: float
     unit: str = ""
-    log: bool = False  # fitted as its logarithm
+    log: bool = False  # fitted as the logarithm of its distance from `origin`
+    origin: float = 0.0  # 1 for a refractive index, since F0 follows n - 1
     linear: bool = False  # the amplitude: brdf is proportional to it
     per_channel: bool = False  # has a value for each wavelength or colour
     free: bool = True  # False: kept at its value unless the user frees it
