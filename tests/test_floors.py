@@ -8,7 +8,7 @@ from .conftest import ROOT
 
 PACKAGE = ROOT / "brdfguide"
 FLOORS = (
-    {"errors", "catalog", "geometry", "material", "roughness", "albedo"},
+    {"errors", "catalog", "geometry", "yaml_schema", "material", "roughness", "albedo"},
     {"optics", "hemisphere", "gloss", "measurement"},
     {"models", "formats", "guidelines"},
     {"examine", "predict", "levenberg", "fitting", "ranking", "recommend", "scene", "pruning"},
