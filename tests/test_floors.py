@@ -9,7 +9,7 @@ from .conftest import ROOT
 PACKAGE = ROOT / "brdfguide"
 FLOORS = (
     {"errors", "catalog", "geometry", "yaml_schema", "material", "roughness", "albedo"},
-    {"optics", "hemisphere", "gloss", "measurement"},
+    {"optics", "hemisphere", "gloss", "measurement", "conventions", "sampling"},
     {"models", "formats", "guidelines"},
     {"examine", "predict", "levenberg", "fitting", "ranking", "recommend", "scene", "pruning"},
     {"report", "exporters", "check", "bench"},

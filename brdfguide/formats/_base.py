@@ -1,0 +1,125 @@
+"""What every file in this folder provides: how a kind of file is recognised and how it becomes a Measurement."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..errors import InputError
+from ..geometry import Geometry, rows
+from ..measurement import Finding, Measurement
+
+RGB_UM = {"R": 0.610, "G": 0.550, "B": 0.465}  # nominal wavelengths of sRGB primaries, for laws that need one
+XYZ_UM = {"X": 0.600, "Y": 0.555, "Z": 0.446}  # peaks of the CIE 1931 colour matching functions
+TEXT_LIMIT = 128 * 2**20  # bytes of text; a gonioreflectometer fills a hundredth of it
+MARGIN_DEG = 0.005  # how far beyond the horizon a rounded angle may lie
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the user says about a file; None: the file decides."""
+
+    columns: Mapping[str, str] | tuple[str, ...] | None = None  # role -> column, or the roles in order
+    unit: str | None = None  # deg, rad
+    quantity: str | None = None  # brdf, brdf-cos, reflectance-factor
+    mirror_side: str | None = None  # positive, negative, phi=180, phi=0
+    average_phi_i: bool = False  # an anisotropic table averaged over the rotation of the sample
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """The bytes of a file and the name that errors call it by."""
+
+    name: str
+    data: bytes
+
+    @cached_property
+    def text(self) -> str:
+        """The file as text: UTF-8 or UTF-16 with a byte order mark, else Latin-1. Raises InputError for binary."""
+        if self.data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            encodings = ("utf-16",)
+        elif b"\0" in self.data:
+            raise self.error("it is binary, and no reader knows it; wanted text with a header row, or a known table format")
+        else:
+            encodings = ("utf-8-sig", "latin-1")
+        for encoding in encodings:
+            try:
+                return self.data.decode(encoding)
+            except UnicodeDecodeError:
+                continue
+        raise self.error("its text is neither UTF-8 nor UTF-16")
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """The text by lines, whatever ends them."""
+        return self.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+    def error(self, sentence: str, line: int | None = None) -> InputError:
+        where = f"{self.name}, line {line}" if line else self.name
+        return InputError(f"{where}: {sentence}")
+
+    def numbers(self, cells, line: int) -> list[float]:
+        """The cells of one line as numbers. Raises InputError that names the first which is not one."""
+        values = []
+        for place, cell in enumerate(cells, 1):
+            try:
+                values.append(float(cell))
+            except ValueError:
+                raise self.error(f"value {place}: found '{cell[:40]}', wanted a number", line) from None
+        return values
+
+
+@dataclass(frozen=True)
+class Format:
+    """One kind of file. `recognises` looks at the first 64 kB only; `read` may raise InputError."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    recognises: Callable[[bytes], bool]
+    read: Callable[[Source, Options], Measurement]
+    limit: int = TEXT_LIMIT  # bytes beyond which such a file is not believed
+    own_side: bool = True  # the format itself says on which side the mirror direction lies
+
+
+def measurement(
+    source: Source, kind: str, theta_i, phi_i, theta_r, phi_r, brdf, *, channels=("brdf",), wavelength=None, stderr=None, findings=(), **more
+) -> Measurement:
+    """A Measurement from flat lists of angles [deg] and values (samples, channels); a negative zenith angle turns its azimuth.
+
+    Directions below the horizon are dropped with a note. Raises InputError where an angle is impossible or nothing is left.
+    """
+    theta_i, phi_i, theta_r, phi_r = (np.asarray(a, float) for a in np.broadcast_arrays(theta_i, phi_i, theta_r, phi_r))
+    phi_i = np.where(theta_i < 0, phi_i + 180.0, phi_i)
+    phi_r = np.where(theta_r < 0, phi_r + 180.0, phi_r)
+    theta_i, theta_r = np.abs(theta_i), np.abs(theta_r)
+    brdf = np.asarray(brdf, float).reshape(len(theta_i), -1)
+    keep = (theta_i < 90 - 1e-9) & (theta_r < 90 - 1e-9)
+    notes = list(findings)
+    if below := int(np.count_nonzero(~keep)):
+        notes.append(Finding("below-horizon", f"{below} directions at or below the horizon were dropped", numbers=(("rows", below),)))
+    if not np.any(keep):
+        raise source.error("no direction above the horizon is left")
+    um, said = (0.55, False) if wavelength is None else (wavelength, True)
+    if not said:
+        text = "the file does not say its wavelength: taken as 550 nm"
+        notes.append(Finding("wavelength-assumed", text, consequence="lengths in micrometres scale with it", option="--wavelength"))
+    um = np.broadcast_to(np.asarray(um, float), brdf.shape[1:])
+    geom = rows(Geometry.from_degrees(theta_i[keep], phi_i[keep], theta_r[keep], phi_r[keep], um))
+    stderr = None if stderr is None else np.asarray(stderr, float).reshape(brdf.shape)[keep]
+    return Measurement(geom, brdf[keep], tuple(channels), stderr=stderr, name=source.name, format=kind, findings=tuple(notes), **more)
+
+
+def check_zenith(source: Source, name: str, degrees, lines=None) -> None:
+    """Raises InputError for the first zenith angle [deg] beyond ±90."""
+    bad = np.flatnonzero(~(np.abs(degrees) <= 90 + MARGIN_DEG))
+    if len(bad):
+        row = int(bad[0])
+        raise source.error(f"{name} = {degrees[row]:g} degrees; a zenith angle lies within -90..90", None if lines is None else int(lines[row]))
+
+
+def nominal_colours(channels) -> Finding:
+    """The note that colours stand for a band, and which."""
+    table = {**RGB_UM, **XYZ_UM}
+    text = "the channels are colours: taken at " + ", ".join(f"{name} {table[name] * 1000:g} nm" for name in channels)
+    return Finding("nominal-wavelengths", text, consequence="only laws that contain the wavelength depend on it")

@@ -1,0 +1,120 @@
+"""Opening a file that may be compressed, without ever holding more than its format can honestly need."""
+
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import InputError
+
+MAGIC = {b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"BZh": "bzip2"}
+PIECE = 2**20
+
+
+@contextmanager
+def stream(path, name: str):
+    """A binary stream of the file's content, decompressed. Raises InputError where it cannot be read."""
+    try:
+        if str(path) == "-":
+            yield _Unpacked(sys.stdin.buffer, name)
+            return
+        path = Path(path)
+        if path.is_dir():
+            raise InputError(f"{name} is a directory; wanted a file with measured values")
+        with path.open("rb") as raw:
+            yield _Unpacked(raw, name)
+    except FileNotFoundError:
+        raise InputError(f"{name}: there is no such file{_nearest(path)}") from None
+    except OSError as error:
+        raise InputError(f"{name}: cannot be read: {error.strerror or error}") from None
+
+
+def whole(stream, head: bytes, limit: int, name: str) -> bytes:
+    """`head` and the rest of the stream. Raises InputError when it goes on beyond `limit` bytes."""
+    pieces, total = [head], len(head)
+    while piece := stream.read(PIECE):
+        total += len(piece)
+        if total > limit:
+            raise InputError(f"{name}: goes on beyond {limit / 2**20:.0f} MB, more than such a file can honestly hold")
+        pieces.append(piece)
+    return b"".join(pieces)
+
+
+class _Unpacked:
+    """read(size) over a raw stream, decompressing gzip, xz and bzip2 piece by piece."""
+
+    def __init__(self, raw, name: str):
+        self.raw, self.name = raw, name
+        self.pending = raw.read(6)
+        self.kind = next((kind for magic, kind in MAGIC.items() if self.pending.startswith(magic)), None)
+        self.machine = _machine(self.kind)
+        self.done = False
+
+    def read(self, size: int) -> bytes:
+        got = bytearray()
+        while len(got) < size:
+            piece = self._piece(size - len(got))
+            if not piece:
+                break
+            got += piece
+        return bytes(got)
+
+    def _piece(self, size: int) -> bytes:
+        if self.kind is None:
+            piece, self.pending = self.pending[:size], self.pending[size:]
+            return piece or self.raw.read(size)
+        while not self.done:
+            try:
+                fresh = self._fresh()
+                piece = self._decompress(fresh, size)
+            except Exception as error:  # zlib.error, LZMAError, OSError: each library has its own
+                raise InputError(f"{self.name}: its {self.kind} compression is damaged: {error}") from None
+            if self.machine.eof:
+                self.done = True
+            if piece:
+                return piece
+            if not fresh and not self.machine.eof and not self._holding():
+                raise InputError(f"{self.name}: truncated: its {self.kind} compression ends early")
+        return b""
+
+    def _holding(self) -> bool:
+        return bool(getattr(self.machine, "unconsumed_tail", b""))
+
+    def _fresh(self) -> bytes:
+        if self.kind == "gzip":
+            if tail := self.machine.unconsumed_tail:
+                return tail
+        elif not self.machine.needs_input:
+            return b""
+        fresh, self.pending = self.pending, b""
+        return fresh or self.raw.read(PIECE)
+
+    def _decompress(self, fresh: bytes, size: int) -> bytes:
+        return self.machine.decompress(fresh, size)
+
+
+def _machine(kind: str | None):
+    if kind == "gzip":
+        import zlib
+
+        return zlib.decompressobj(wbits=31)
+    if kind == "xz":
+        import lzma
+
+        return lzma.LZMADecompressor(memlimit=128 * 2**20)
+    if kind == "bzip2":
+        import bz2
+
+        return bz2.BZ2Decompressor()
+    return None
+
+
+def _nearest(path: Path) -> str:
+    """The nearest file names in the same folder, for one that is not there."""
+    from difflib import get_close_matches
+
+    try:
+        beside = [each.name for each in Path(path).parent.iterdir()]
+    except OSError:
+        return ""
+    near = get_close_matches(Path(path).name, beside, n=2, cutoff=0.6)
+    return f"; did you mean {' or '.join(near)}?" if near else ""

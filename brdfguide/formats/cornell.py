@@ -1,0 +1,74 @@
+"""Cornell Program of Computer Graphics and pbrt `.brdf`: one stream of numbers in which line breaks mean nothing.
+
+A count N, then N wavelengths [nm], then records of theta_i, phi_i, theta_r, phi_r [rad] and N values [1/sr].
+Text after `#` is a comment. The mirror direction is phi_r - phi_i = 180 degrees. An exact 0 means missing.
+"""
+
+import re
+
+import numpy as np
+
+from ..measurement import Measurement
+from ._base import Format, Options, Source, check_zenith, measurement
+
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+CHANNELS = range(1, 4096)
+
+
+def recognises(head: bytes) -> bool:
+    """Nothing but comments and numbers, and the numbers begin with a count and as many rising wavelengths in nm."""
+    if b"\0" in head:
+        return False
+    cut = len(head) == 65536
+    words = re.sub(rb"#[^\r\n]*", b"", head).decode("latin-1").split()[: -1 if cut else None]
+    if len(words) < 2 or not words[0].isdigit() or int(words[0]) not in CHANNELS:
+        return False
+    start = words[1 : 1 + min(int(words[0]), 8)]
+    if not all(NUMBER.fullmatch(word) for word in start):
+        return False
+    wavelengths = [float(word) for word in start]
+    return wavelengths[0] >= 100 and all(a < b for a, b in zip(wavelengths, wavelengths[1:]))
+
+
+def read(source: Source, options: Options) -> Measurement:
+    """Raises InputError where the count, the wavelengths or the records do not agree."""
+    text = re.sub(r"#[^\r\n]*", "", source.text)
+    words = text.split()
+    count = int(words[0])
+    width = count + 4
+    if len(words) < 1 + count + width:
+        raise source.error(f"truncated: {count} wavelengths promised, and one record of {width} numbers; found {len(words) - 1} numbers")
+    try:
+        numbers = np.array(words[1:], float)
+    except ValueError:
+        raise _not_a_number(source) from None
+    um, records = numbers[:count] / 1000, numbers[count:]
+    if np.any(~(um > 0)) or np.any(np.diff(um) <= 0):
+        raise source.error("the wavelengths do not rise")
+    if len(records) % width:
+        raise source.error(f"truncated: the last record has {len(records) % width} of {width} numbers (4 angles and {count} values)")
+    records = records.reshape(-1, width)
+    degrees = np.degrees(records[:, :4])
+    if not np.all(np.isfinite(degrees)):
+        raise source.error(f"record {int(np.flatnonzero(~np.all(np.isfinite(degrees), axis=1))[0]) + 1}: an angle is not finite")
+    for name, column in (("theta_i", 0), ("theta_r", 2)):
+        check_zenith(source, name, degrees[:, column])
+    channels = [f"{each * 1000:g}nm" for each in um]
+    return measurement(source, "Cornell .brdf", *_rounded(degrees), records[:, 4:], channels=channels, wavelength=um)
+
+
+def _rounded(degrees):
+    """Angles back from radians with six decimals: 0.872665 was 50 degrees, not 50.00002."""
+    nearest = np.round(degrees, 2)
+    return np.where(np.abs(degrees - nearest) < 6e-5, nearest, degrees).T
+
+
+def _not_a_number(source: Source):
+    for line, text in enumerate(source.lines, 1):
+        for word in text.partition("#")[0].split():
+            if not NUMBER.fullmatch(word):
+                return source.error(f"found '{word[:40]}', wanted a number", line)
+    return source.error("holds something that is no number")
+
+
+FORMAT = Format("cornell", (".brdf",), recognises, read)
