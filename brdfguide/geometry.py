@@ -97,6 +97,38 @@ class Geometry:
         return self.vxy2 + self.cos_difference**2
 
     @cached_property
+    def in_front(self):
+        """Where the detector is less than 90° from the mirror direction: elsewhere a mirror lobe is 0."""
+        return self.mirror_distance2 < 2.0
+
+    @cached_property
+    def ln_cos_m(self):
+        """ln of the cosine of the angle from the mirror direction to the detector; 0 where not `in_front`."""
+        return np.log1p(np.where(self.in_front, -0.5 * self.mirror_distance2, 0.0))
+
+    @cached_property
+    def sec2_h(self):
+        """1/cos² of the angle from the normal to the half vector."""
+        return 1.0 + self.tan2_h
+
+    @cached_property
+    def ln_sec2_h(self):
+        return np.log1p(self.tan2_h)
+
+    @cached_property
+    def cos2_i(self):
+        return self.cos_i * self.cos_i
+
+    @cached_property
+    def cos2_r(self):
+        return self.cos_r * self.cos_r
+
+    @cached_property
+    def cos_cos(self):
+        """cos θi cos θr."""
+        return self.cos_i * self.cos_r
+
+    @cached_property
     def tan_i(self):
         return self.sin_i / self.cos_i
 
@@ -112,6 +144,22 @@ class Geometry:
     @cached_property
     def all_lit(self) -> bool:
         return bool(np.all(self.lit))
+
+    @cached_property
+    def theta_i(self):
+        """Zenith angle of the light [rad]."""
+        return np.arctan2(self.sin_i, self.cos_i)
+
+    @cached_property
+    def theta_r(self):
+        return np.arctan2(self.sin_r, self.cos_r)
+
+    def remembered(self, factor):
+        """`factor(self)`, computed once: for what a law forms from the directions alone."""
+        key = (factor.__module__, factor.__qualname__)
+        if key not in self.__dict__:
+            self.__dict__[key] = factor(self)
+        return self.__dict__[key]
 
     # --- what people read ---------------------------------------------------------------------------
 

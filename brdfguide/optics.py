@@ -1,49 +1,125 @@
 """Smooth interfaces: Fresnel reflectance, F0 and the index, and what roughness takes from a mirror.
 
-Reflectances are written over eps - 1, with the subtraction done by hand, so that an index next to 1,
-grazing light and a near-perfect metal lose no digits.
+Everything is written over n - 1 and in sums of positive terms, so that an index next to 1, grazing light, a
+near-perfect metal and an enormous k lose no digits and overflow nowhere.
 """
+
+from math import pi
 
 import numpy as np
 
 from .errors import InputError
 
+# Westin et al. 2004, Table 1, nominally at 550 nm: material -> (n, k, normal reflectance as printed)
+TABLE_1 = {
+    "water": (1.34, 0.0, 0.0211),
+    "fused silica": (1.460, 0.0, 0.0350),
+    "acrylic": (1.48, 0.0, 0.0375),
+    "polyethylene": (1.490, 0.0, 0.0387),
+    "window glass": (1.51, 0.0, 0.0413),  # the table gives a range, 1.51 to 1.54
+    "window glass, high": (1.54, 0.0, 0.0452),
+    "diamond": (2.4203, 0.0, 0.1724),
+    "nickel": (1.80, 3.33, 0.6196),
+    "chromium": (3.18, 4.41, 0.6555),
+    "aluminum": (0.958, 6.69, 0.9211),
+    "silver": (0.120, 3.45, 0.9635),
+}
+
 
 def fresnel(cos_d, n, k=0.0):
-    """Unpolarised power reflectance of a smooth interface at the angle whose cosine is `cos_d`.
+    """Unpolarised power reflectance of a smooth interface.
 
-    e = n² - 1 - k² + 2ink,  q = √(e + c²)
-    r_s = -e/(c+q)²,  r_p = e ((e+2)c² - 1)/b²,  b = (e+1)c + q,  F = (|r_s|² + |r_p|²)/2
+    q = √(N² - 1 + c²), N = n + ik, s² = 1 - c²
+    F = |N² - 1|²/|q + c|⁴ · (|q|²c² + s⁴) / (|q|²c² + 2 c s² Re q + s⁴)
 
-    Takes  cos_d (...) in 0..1, n > 0, k >= 0 (its sign is ignored); all broadcast.
+    The mean of |r_s|² and |r_p|², with r_s = (c - q)/(c + q), r_p = r_s (qc - s²)/(qc + s²).
+
+    Takes  cos_d (...) in 0..1, n > 0, k (its sign is ignored); all broadcast.
     Gives  F (...) in 0..1; 0 where n = 1 and k = 0, 1 at grazing.    Raises nothing.
     """
-    c = np.asarray(cos_d, float)
-    n, k = np.asarray(n, float), np.abs(np.asarray(k, float))
-    if not np.any(k) and np.all(n > 1):
-        return _dielectric(c, n)
-    e = (n - 1) * (n + 1) - k * k + 2j * n * k
-    with np.errstate(divide="ignore", invalid="ignore"):
-        q = np.sqrt(e + c * c)
-        r_s = e / (c + q) / (c + q)
-        b = (e + 1) * c + q
-        r_p = (e / b) * (((e + 2) * c * c - 1) / b)
-    f = 0.5 * (_abs2(r_s) + _abs2(r_p))
-    return np.minimum(np.where(e == 0, 0.0, f), 1.0)
+    e2, total, share, all_of_it, _, _ = _interface(cos_d, n, k)
+    total = total * total
+    total *= all_of_it
+    share *= e2
+    if np.all(e2):
+        share /= total
+    else:  # no interface: 0 even at grazing, where the formula is 0/0
+        share = np.divide(share, total, out=np.zeros_like(total), where=share > 0)
+    return np.minimum(share, 1.0)
 
 
-def _dielectric(c, n):
-    """The same in real arithmetic, for n > 1 and k = 0."""
-    e = (n - 1) * (n + 1)
-    c2 = c * c
-    q = np.sqrt(e + c2)
-    r_s = e / (c + q) ** 2
-    r_p = e * ((e + 2) * c2 - 1) / ((e + 1) * c + q) ** 2
-    return 0.5 * (r_s * r_s + r_p * r_p)
+def one_minus_fresnel(cos_d, n, k=0.0):
+    """What enters, 1 - F, without the subtraction: the absorptance of a metal, the transmittance at grazing.
+
+    1 - F = 2 c Re q (2 P/|q + c|² + s²) / (P + 2 c s² Re q),    P = |q|²c² + s⁴
+
+    Takes and raises the same as `fresnel`.    Gives  1 - F (...) in 0..1; 1 where n = 1 and k = 0.
+    """
+    e2, total, share, all_of_it, rise, s2 = _interface(cos_d, n, k)
+    bare = (e2 == 0) | (total == 0)
+    enters = rise * (2 * share / np.where(bare, 1.0, total) + s2) / np.where(bare, 1.0, all_of_it)
+    return np.where(bare, 1.0, np.minimum(enters, 1.0))
+
+
+def _interface(cos_d, n, k):
+    """|N²-1|², |q+c|², P = |q|²c² + s⁴, P + 2 c s² Re q, 2 c Re q, s², all in units of u² (1, or (n+k)² if enormous)."""
+    c, n, k = np.asarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
+    enormous = np.max(n + k) > 1e38  # its squares may overflow
+    u = n + k if enormous else 1.0
+    n_u, k_u, minus, plus = n / u, k / u, (n - 1) / u, (n + 1) / u
+    e2 = (minus * minus + k_u * k_u) * (plus * plus + k_u * k_u)
+    c_u = c / u if enormous else c
+    c2_u = c_u * c_u
+    x = c2_u + (minus * plus - k_u * k_u)  # q² = x + iy
+    if np.any(k):
+        y = 2 * n_u * k_u
+        q2 = np.sqrt(x * x + y * y)
+        root = np.sqrt(0.5 * (q2 + np.abs(x)))
+        rise = np.where(x < 0, np.divide(0.5 * y, root, out=np.zeros_like(root), where=root > 0), root)
+    else:
+        q2 = np.abs(x)
+        rise = np.sqrt(np.maximum(x, 0.0))  # n < 1 beyond its critical angle: q is imaginary, F = 1
+    rise *= c_u
+    rise += rise
+    total = q2 + c2_u
+    total += rise
+    s2 = (1 - c) * (1 + c)
+    share = q2 * (c * c)
+    share += (s2 / u) ** 2 if enormous else s2 * s2
+    return e2, total, share, share + rise * s2, rise, s2
+
+
+def fresnel_gradient(cos_d, n, k=0.0):
+    """dF/dn and dF/dk, from dF = Re(g dq), dq = N dN/q.
+
+    g = -2c conj(r_s)(1 + |t|²)/(c + q)² + 2 c s² |r_s|² conj(t)/(qc + s²)²,   t = (qc - s²)/(qc + s²)
+
+    Takes  what `fresnel` takes, off the critical angle of n < 1.    Gives  two arrays (...).
+    """
+    c, n, k = np.asarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
+    real = not np.any(k) and np.all(n >= 1)
+    index = n if real else n + 1j * k
+    e = (n - 1) * (n + 1) - k * k + (0 if real else 2j * n * k)
+    q = np.sqrt(e + c * c)
+    s2 = (1 - c) * (1 + c)
+    below, across = 1 / (c + q), 1 / (q * c + s2)
+    r_s, t = -e * below * below, (q * c - s2) * across
+    g = 2 * c * (np.conj(r_s) * -(1 + _abs2(t)) * below * below + _abs2(r_s) * np.conj(t) * s2 * across * across)
+    g = g * index / q
+    return (g, np.zeros_like(g)) if real else (g.real, -g.imag)
 
 
 def _abs2(z):
     return z.real**2 + z.imag**2
+
+
+def f0(n, k=0.0):
+    """Reflectance at normal incidence, ((n-1)² + k²) / ((n+1)² + k²).
+
+    Takes  n > 0, k (...).    Gives  F0 (...) in 0..1.    Raises nothing.
+    """
+    n, k = np.asarray(n, float), np.asarray(k, float)
+    return ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2)
 
 
 def index_from_f0(f0):
@@ -54,13 +130,49 @@ def index_from_f0(f0):
     Takes  f0 (...), 0 <= f0 < 1.    Gives  n (...) >= 1.    Raises InputError outside.
     For a metal this is an equivalent real n, not its index.
     """
-    f0 = np.asarray(f0, float)
-    if not np.all((f0 >= 0) & (f0 < 1)):
-        raise InputError(f"f0 = {np.ravel(f0)[0]:g}: a reflectance at normal incidence lies in 0 <= f0 < 1")
+    f0 = _reflectance(f0)
     return (1 + np.sqrt(f0)) ** 2 / (1 - f0)
 
 
-def f0(n, k=0.0):
-    """Reflectance at normal incidence, ((n-1)² + k²) / ((n+1)² + k²). Takes n > 0, k (...); gives F0 (...)."""
-    n, k = np.asarray(n, float), np.asarray(k, float)
-    return ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2)
+def index_minus_one(f0):
+    """n - 1 of Eq. 2, 2√F0 (1 + √F0) / (1 - F0), which survives where n itself rounds to 1.
+
+    Takes and raises the same as `index_from_f0`.    Gives  n - 1 (...) >= 0.
+    """
+    f0 = _reflectance(f0)
+    root = np.sqrt(f0)
+    return 2 * root * (1 + root) / (1 - f0)
+
+
+def _reflectance(f0):
+    f0 = np.asarray(f0, float)
+    wrong = ~((f0 >= 0) & (f0 < 1))
+    if np.any(wrong):
+        raise InputError(f"f0 = {f0[wrong].flat[0]:g}: a reflectance at normal incidence lies in 0 <= f0 < 1")
+    return f0
+
+
+def davies(fresnel, cos_i, sigma, wavelength):
+    """Specular reflectance left by a slightly rough surface.
+
+    rho = F exp(-g),  g = (4π (sigma/wavelength) cos θi)²          (Westin et al. 2004, Eq. 1; Davies 1954)
+
+    Takes  F (...), cos_i (...), sigma [µm], wavelength [µm]; all broadcast.
+    Gives  rho (...) in 0..F. Underflows to 0 for sigma/wavelength above about 2.2 at normal incidence: see `davies_ln`.
+    """
+    return fresnel * np.exp(-davies_exponent(cos_i, sigma, wavelength))
+
+
+def davies_exponent(cos_i, sigma, wavelength):
+    """g of Eq. 1: the squared phase that the roughness gives the mirror reflection, dimensionless."""
+    return (4 * pi * (sigma / wavelength) * cos_i) ** 2
+
+
+def davies_ln(fresnel, cos_i, sigma, wavelength):
+    """ln rho of Eq. 1, right where rho underflows. Takes F > 0 and otherwise what `davies` takes."""
+    return np.log(fresnel) - davies_exponent(cos_i, sigma, wavelength)
+
+
+def davies_scattered(fresnel, cos_i, sigma, wavelength):
+    """What Eq. 1 takes from the mirror, F - rho = F (1 - exp(-g)), right where it is far below F."""
+    return -fresnel * np.expm1(-davies_exponent(cos_i, sigma, wavelength))

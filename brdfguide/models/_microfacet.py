@@ -1,0 +1,41 @@
+"""What the microfacet laws share: a Fresnel factor, an amplitude that is physical by default, and their gradients.
+
+Each such law is f = scale · F(cos θd; n, k) · shape(alpha), where shape = D G / (4 cos θi cos θr).
+"""
+
+from math import pi
+
+import numpy as np
+
+from .. import optics
+from ..geometry import Geometry
+from ._base import Parameter
+
+INDEX = (
+    Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, per_channel=True, meaning="refractive index; of a metal with k = 0 an equivalent one", starts=(1.5, 4.0, 20.0)),
+    Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
+    Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1 for a calibrated measurement of a bare interface"),
+)
+
+
+def fresnel_terms(geom: Geometry, names, shape, n, k, scale) -> dict[str, np.ndarray]:
+    """df/dn and df/dk, as far as `names` asks for them."""
+    wanted = [name for name in ("n", "k") if name in names]
+    if not wanted:
+        return {}
+    by_n, by_k = optics.fresnel_gradient(geom.cos_d, n, k)
+    return {name: scale * shape * slope for name, slope in (("n", by_n), ("k", by_k)) if name in wanted}
+
+
+def with_fixed_fresnel(shape):
+    """The law with F at its normal-incidence value: what a scene that never looks near grazing needs."""
+
+    def brdf(geom: Geometry, *, alpha, n, k, scale):
+        return scale * optics.f0(n, k) * shape(geom, alpha)
+
+    return brdf
+
+
+def beckmann(geom: Geometry, alpha) -> np.ndarray:
+    """D of Gaussian slopes [1/sr], exp(-t/alpha²) ((1 + t)/alpha)²/π with t = tan²δ; its projection integrates to 1."""
+    return np.exp(geom.tan2_h / -(alpha * alpha)) * (geom.sec2_h / alpha) ** 2 / pi

@@ -1,0 +1,77 @@
+"""Cook and Torrance: Gaussian facets in V-shaped grooves, with Fresnel.
+
+    f = F D G / (4 cos θi cos θr)
+    D = exp(-t/alpha²) ((1 + t)/alpha)²/π,   t = tan²δ, δ from normal to half vector
+    G = min(1, 4 cos θi / (v_z (1 + t)), 4 cos θr / (v_z (1 + t))),   v_z = cos θi + cos θr
+
+The 1/4 is that of a distribution D whose projection integrates to 1; as printed in 1982, with 1/π for D's own π, the
+lobe is four times too bright. The groove factor has a crease where its minimum changes hands.
+
+Source: Cook and Torrance 1982, "A reflectance model for computer graphics".
+"""
+
+from math import pi
+
+import numpy as np
+
+from .. import optics
+from ..geometry import Geometry, in_plane
+from ._base import Extreme, Model, Parameter, Pin
+from ._microfacet import INDEX, beckmann, fresnel_terms, with_fixed_fresnel
+
+
+def masking(geom: Geometry) -> np.ndarray:
+    """G of the V-grooves; 2 (n·h) cos θ / (i·h) without its cancellations."""
+    return np.minimum(1.0, 4 * np.minimum(geom.cos_i, geom.cos_r) / (geom.v_z * geom.sec2_h))
+
+
+def shape(geom: Geometry, alpha) -> np.ndarray:
+    """D G/(4 cos θi cos θr) [1/sr]: the law without Fresnel."""
+    return beckmann(geom, alpha) * geom.remembered(_over_cosines)
+
+
+def _over_cosines(geom: Geometry):
+    """G/(4 cos θi cos θr)."""
+    return masking(geom) / (4 * geom.cos_cos)
+
+
+def brdf(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
+    """BRDF [1/sr], in the shape of `geom`."""
+    return scale * optics.fresnel(geom.cos_d, n, k) * shape(geom, alpha)
+
+
+def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarray]:
+    """d ln f/dalpha = (2/alpha)(t/alpha² - 1)."""
+    of_shape = shape(geom, alpha)
+    out = fresnel_terms(geom, names, of_shape, n, k, scale)
+    if "alpha" in names:
+        out["alpha"] = scale * optics.fresnel(geom.cos_d, n, k) * of_shape * (2 / alpha) * (geom.tan2_h / alpha**2 - 1)
+    return out
+
+
+def unmasked(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
+    """The law with no facet hidden by another: enough where neither light nor eye is low."""
+    return scale * optics.fresnel(geom.cos_d, n, k) * beckmann(geom, alpha) / (4 * geom.cos_cos)
+
+
+MODEL = Model(
+    __name__,
+    brdf,
+    parameters=(
+        Parameter("alpha", 0.2, 1e-4, 1.0, log=True, meaning="facet slope, √2 times the rms slope along a line", starts=(0.01, 0.04, 0.1, 0.2, 0.35, 0.6)),
+        *INDEX,
+    ),
+    gradient=gradient,
+    without={"fresnel": with_fixed_fresnel(shape), "masking": unmasked},
+    summary="Gaussian facets, Fresnel, off-specular peak: rough metals and plastics of one roughness scale",
+    pins=(
+        Pin(in_plane(45, 50), {"alpha": 0.12, "n": 1.7, "k": 0.0, "scale": 0.8}, f=0.70576410454031793, source="50 digits"),
+        Pin(in_plane(80, 20), {"alpha": 0.5, "n": 0.958, "k": 6.69, "scale": 1.0}, f=0.39141589017854746, source="50 digits"),
+    ),
+    extremes=(
+        Extreme("narrowest lobe, 0.01° from grazing", in_plane(89.99, 89.99), {"alpha": 1e-4}),
+        Extreme("lobe underflows far from the mirror", in_plane(10, -80), {"alpha": 1e-4}, f=0.0),
+        Extreme("light from where it is seen", in_plane(60, -60), {"alpha": 1.0}),
+    ),
+    source="Cook and Torrance 1982",
+)

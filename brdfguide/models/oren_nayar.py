@@ -1,0 +1,89 @@
+"""Oren and Nayar: Lambertian facets in V-shaped grooves, with the light they send to each other.
+
+    f = albedo/π (C1 + C2 cos φ tan β + C3 (1 - |cos φ|) tan((α + β)/2)) + 0.17 albedo²/π C4 (1 - cos φ (2β/π)²)
+    s² = spread²,  α, β the larger and smaller of θi, θr,  φ = φr - φi (0: toward the light)
+    C1 = 1 - ½ s²/(s² + 0.33),  C3 = 0.125 s²/(s² + 0.09) (4αβ/π²)²,  C4 = s²/(s² + 0.13)
+    C2 = 0.45 s²/(s² + 0.09) (sin α - (2β/π)³ where cos φ < 0)
+
+Clay, unglazed ceramics, matte paper, dust: flatter than Lambert and brighter toward the light. The light between
+facets makes it quadratic in the albedo. `qualitative` is the paper's short form, without that light and without C3.
+
+Source: Oren and Nayar 1994, "Generalization of Lambert's reflectance model".
+"""
+
+from math import pi
+
+import numpy as np
+
+from ..geometry import Geometry, in_plane
+from ._base import Extreme, Model, Parameter, Pin
+
+
+def brdf(geom: Geometry, *, albedo, spread) -> np.ndarray:
+    """BRDF [1/sr], in the shape of `geom`."""
+    once, between = _parts(geom, spread * spread)
+    return albedo / pi * (once + albedo * between)
+
+
+def qualitative(geom: Geometry, *, albedo, spread) -> np.ndarray:
+    """The paper's short form [1/sr]: albedo/π (C1 + 0.45 s²/(s² + 0.09) max(0, cos φ) sin α tan β)."""
+    s2 = spread * spread
+    forward = np.maximum(geom.dot_xy, 0.0) / np.maximum(geom.cos_i, geom.cos_r)
+    return albedo / pi * (1 - 0.5 * s2 / (s2 + 0.33) + 0.45 * s2 / (s2 + 0.09) * forward)
+
+
+def gradient(geom: Geometry, names, *, albedo, spread) -> dict[str, np.ndarray]:
+    """df/dalbedo, and df/dspread with d(s²/(s² + c))/dspread = 2 spread c/(s² + c)²."""
+    s2 = spread * spread
+    once, between = _parts(geom, s2)
+    rays, grooves = geom.remembered(_rays), geom.remembered(_grooves)
+    slope = {c: 2 * spread * c / (s2 + c) ** 2 for c in (0.33, 0.09, 0.13)}
+    by_spread = -0.5 * slope[0.33] + slope[0.09] * rays + albedo * 0.17 * slope[0.13] * grooves
+    return {"albedo": (once + 2 * albedo * between) / pi, "spread": albedo / pi * by_spread}
+
+
+def _parts(geom: Geometry, s2):
+    """Light scattered once, per albedo/π, and light between facets, per albedo²/π."""
+    once = (1 - 0.5 * s2 / (s2 + 0.33)) + (s2 / (s2 + 0.09)) * geom.remembered(_rays)
+    return once, (0.17 * s2 / (s2 + 0.13)) * geom.remembered(_grooves)
+
+
+def _rays(geom: Geometry):
+    """C2 cos φ tan β + C3 (1 - |cos φ|) tan((α + β)/2), per s²/(s² + 0.09); sin α tan β cos φ = (i_xy·r_xy)/max(cos)."""
+    larger, smaller = np.maximum(geom.theta_i, geom.theta_r), np.minimum(geom.theta_i, geom.theta_r)
+    cos_phi = np.cos(np.radians(geom.phi_deg))
+    tan_smaller = np.minimum(geom.tan_i, geom.tan_r)
+    away = np.minimum(cos_phi, 0.0) * tan_smaller * (2 * smaller / pi) ** 3
+    tan_mean = (geom.sin_i + geom.sin_r) / geom.v_z
+    sideways = 0.125 * (4 * larger * smaller / pi**2) ** 2 * (1 - np.abs(cos_phi)) * tan_mean
+    return 0.45 * (geom.dot_xy / np.maximum(geom.cos_i, geom.cos_r) - away) + sideways
+
+
+def _grooves(geom: Geometry):
+    """1 - cos φ (2β/π)²."""
+    return 1 - np.cos(np.radians(geom.phi_deg)) * (2 * np.minimum(geom.theta_i, geom.theta_r) / pi) ** 2
+
+
+MODEL = Model(
+    __name__,
+    brdf,
+    roles=("subsurface",),
+    parameters=(
+        Parameter("albedo", 0.5, 0.0, 1.0, per_channel=True, meaning="reflectance of a facet", starts=(0.1, 0.4, 0.8)),
+        Parameter("spread", 0.3, 0.0, 1.2, unit="rad", meaning="standard deviation of the facets' tilt", starts=(0.1, 0.3, 0.6)),
+    ),
+    gradient=gradient,
+    without={"interreflection": qualitative},
+    summary="rough diffusers: clay, matte paper, dust; flatter than Lambert, brighter toward the light",
+    pins=(
+        Pin(in_plane(45, 50), {"albedo": 0.75, "spread": 0.4}, f=0.17667271277907862, source="50 digits"),
+        Pin(in_plane(70, -40), {"albedo": 0.2, "spread": 0.9}, f=0.06287182079706264, source="50 digits"),
+        Pin(Geometry.from_degrees(60, 10, 30, 75), {"albedo": 0.9, "spread": 0.7}, f=0.25777535232049272, source="50 digits"),
+    ),
+    extremes=(
+        Extreme("at the normal, where the azimuth is undefined", in_plane(0, 0), {"albedo": 1.0, "spread": 1.2}),
+        Extreme("both at grazing, where tan β grows without bound", in_plane(89.99, -89.99), {"albedo": 1.0, "spread": 1.2}),
+    ),
+    breaks={"energy": "tan β sends more than 1 toward grazing: 1.02 at 89° for albedo 1, spread 0.5"},
+    source="Oren and Nayar 1994",
+)
