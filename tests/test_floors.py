@@ -9,9 +9,9 @@ from .conftest import ROOT
 PACKAGE = ROOT / "brdfguide"
 FLOORS = (
     {"errors", "catalog", "geometry", "yaml_schema", "material", "roughness", "albedo"},
-    {"optics", "hemisphere", "gloss", "measurement", "conventions", "sampling"},
+    {"optics", "hemisphere", "gloss", "measurement", "conventions", "sampling", "display", "draws"},
     {"models", "formats", "guidelines"},
-    {"examine", "predict", "levenberg", "fitting", "ranking", "recommend", "scene", "pruning"},
+    {"examine", "predict", "levenberg", "fitting", "ranking", "recommend", "scene", "pixels", "quadrature", "parts", "costs", "screens", "pruning"},
     {"report", "exporters", "check", "bench"},
     {"cli", "__main__"},
 )

@@ -1,0 +1,186 @@
+"""Pixels drawn from a scene: where the camera, the lights and the normal are, and how much of the picture each stands for.
+
+Half of the pixels come from the scene itself, half from the neighbourhood of each light's mirror direction (a
+"defensive mixture"), where a highlight would be; every pixel then weighs
+
+    weight = p / (p/2 + q/2),     p: density of the scene, q: of the neighbourhood, in the same variables,
+
+so that means, percentiles and areas are those of the picture and not those of the draw (Hesterberg 1995).
+"""
+
+from dataclasses import dataclass, replace
+from math import cos, pi, radians, sin
+
+import numpy as np
+
+from . import draws
+from .scene import Directions, Scene
+
+
+@dataclass(frozen=True)
+class Range:
+    """A range of directions, even in solid angle, or in projected solid angle; only azimuth or zenith may be free."""
+
+    theta: tuple[float, float]  # [rad]
+    phi: tuple[float, float]
+    projected: bool
+
+    @classmethod
+    def of(cls, directions: Directions, scene: Scene) -> "Range":
+        phi = (0.0, 0.0) if scene.in_plane else directions.phi_deg
+        return cls(tuple(map(radians, directions.theta_deg)), tuple(map(radians, phi)), scene.shape == "arbitrary")
+
+    @property
+    def free_theta(self) -> bool:
+        return self.theta[1] > self.theta[0]
+
+    @property
+    def free_phi(self) -> bool:
+        return self.phi[1] > self.phi[0]
+
+    @property
+    def extent(self) -> tuple[int, float]:
+        """How many coordinates are free, and the area they span: what has more room is moved."""
+        return self.free_theta + self.free_phi, (cos(self.theta[0]) - cos(self.theta[1]) or 1.0) * (self.phi[1] - self.phi[0] or 1.0)
+
+    def draw(self, u, v) -> np.ndarray:
+        """Directions (..., 3) from uniform numbers."""
+        low, high = cos(self.theta[1]), cos(self.theta[0])
+        cos_theta = np.sqrt(low**2 + (high**2 - low**2) * u) if self.projected else low + (high - low) * u
+        return draws.from_angles(cos_theta, self.phi[0] + (self.phi[1] - self.phi[0]) * v)
+
+    def draw_near(self, target, own, spread, u, v) -> np.ndarray:
+        """Directions scattered about `target` in the free coordinates; the others stay as in `own`."""
+        if self.free_theta and self.free_phi:
+            return draws.near(target, spread, u, v)
+        theta, phi, target_theta, target_phi = *_angles(own), *_angles(target)
+        offset = spread * np.sqrt(-2 * np.log(1 - u)) * np.cos(2 * pi * v)  # Box and Muller
+        if self.free_theta:
+            return draws.from_angles(np.cos(np.abs(target_theta + offset)), phi)
+        return draws.from_angles(np.cos(theta), target_phi + offset / max(sin(self.theta[0]), 1e-9))
+
+    def near_over_own(self, directions, target, spread) -> np.ndarray:
+        """Density of `draw_near` over that of `draw`, at `directions`."""
+        theta, phi = _angles(directions)
+        target_theta, target_phi = _angles(target)
+        low, high = cos(self.theta[1]), cos(self.theta[0])
+        weight, whole = (np.cos(theta), (high**2 - low**2) / 2) if self.projected else (1.0, high - low)
+        if self.free_theta and self.free_phi:
+            return draws.near_density(directions, target, spread) * whole * (self.phi[1] - self.phi[0]) / np.maximum(weight, 1e-12)
+        if self.free_theta:
+            return draws.bell(theta - target_theta, spread) * whole / np.maximum(weight * np.sin(theta), 1e-12)
+        if self.free_phi:
+            return draws.bell(draws.wrapped(phi - target_phi), spread / max(sin(self.theta[0]), 1e-9)) * (self.phi[1] - self.phi[0])
+        return np.ones(np.shape(theta))
+
+    def contains(self, directions) -> np.ndarray:
+        theta, phi = _angles(directions)
+        slack = 1e-9
+        turn = np.remainder(phi - self.phi[0] + slack, 2 * pi)
+        return (theta >= self.theta[0] - slack) & (theta <= self.theta[1] + slack) & (turn <= self.phi[1] - self.phi[0] + 2 * slack)
+
+
+def drawn(scene: Scene, size: int, seed: int, width: float):
+    """Weights (pixels,), camera (pixels, 3) and lights (pixels, lights, 3) in the frame of the surface.
+
+    Takes  width [rad], of the narrowest lobe that may be seen.    Gives  `size` pixels; weight 0 for those outside.
+    """
+    rng = np.random.default_rng(seed)
+    count = len(scene.lights)
+    u = np.stack([(rng.permutation(size) + rng.random(size)) / size for _ in range(6 + 2 * count)])
+    seen, *lit = (Range.of(each, scene) for each in (scene.camera, *(light.directions for light in scene.lights)))
+    camera = seen.draw(u[0], u[1])
+    if scene.in_plane:
+        camera = camera * np.where(u[1:2].T < 0.5, [[-1.0, -1.0, 1.0]], 1.0)
+    lights = np.stack([each.draw(u[6 + 2 * j], u[7 + 2 * j]) for j, each in enumerate(lit)], axis=1)
+    normals = _normals(scene.shape, camera, u[2])
+    spreads = [np.where(u[5] < 0.5, *_spreads(scene, j, width)) for j in range(count)]
+    curved = scene.shape in ("sphere", "cylinder")
+    moves_light = [each.extent >= seen.extent for each in lit]
+
+    def mirror_of(directions):
+        return 2 * draws.dot(normals, directions)[:, None] * normals - directions
+
+    for j in range(count):
+        near = u[4] * 2 * count // 1 == j  # beyond the last light: the scene itself
+        if curved:
+            moved, new = normals, _normals_near(scene.shape, draws.unit(camera + lights[:, j]), spreads[j] / 2, u[2], u[3])
+        elif moves_light[j]:
+            moved, new = lights[:, j], lit[j].draw_near(mirror_of(camera), lights[:, j], spreads[j], u[2], u[3])
+        else:
+            moved, new = camera, seen.draw_near(mirror_of(lights[:, j]), camera, spreads[j], u[2], u[3])
+        moved[near] = new[near]
+
+    ratio, inside = np.zeros(size), np.ones(size, bool)
+    for j in range(count):
+        for spread in _spreads(scene, j, width):
+            if curved:
+                half = draws.unit(camera + lights[:, j])
+                each = _normal_near_over_own(scene.shape, normals, half, camera, spread / 2)
+            elif moves_light[j]:
+                each = lit[j].near_over_own(lights[:, j], mirror_of(camera), spread)
+            else:
+                each = seen.near_over_own(camera, mirror_of(lights[:, j]), spread)
+            ratio += each / (2 * count)
+        inside &= lit[j].contains(lights[:, j])
+    if not scene.in_plane:
+        inside &= seen.contains(camera)
+    weights = np.where(inside, 1 / (0.5 + 0.5 * ratio), 0.0)
+    if scene.shape in ("plane", "arbitrary"):
+        return weights, camera, lights
+    frame = np.stack([*draws.tangents(normals), normals], axis=1)
+    return weights, np.einsum("sij,sj->si", frame, camera), np.einsum("sij,slj->sli", frame, lights)
+
+
+def _spreads(scene: Scene, light: int, width: float) -> tuple[float, float]:
+    """Scatter about the mirror direction of a light: that of the lobe, and that of the light's image itself."""
+    radius = radians(scene.lights[light].radius_deg) + 2 * scene.pixel_normal
+    return max(width, radius), max(radius, radians(0.5 / 60)) / 1.5
+
+
+def _angles(directions):
+    """Zenith angle and azimuth [rad]."""
+    x, y, z = np.moveaxis(directions, -1, 0)
+    return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x)
+
+
+def _normals(shape: str, camera, u) -> np.ndarray:
+    """Normals (pixels, 3) as the camera sees them: each as often as its share of the picture."""
+    if shape == "sphere":
+        # the azimuth round the line of sight runs through all values while u does, by the golden ratio
+        return draws.turned(camera, np.sqrt(1 - u), draws.GOLDEN_ANGLE * len(u) * u)
+    if shape == "cylinder":
+        return draws.from_angles(np.zeros(len(u)), _angles(camera)[1] + np.arcsin(2 * u - 1))
+    if shape == "box":
+        share = np.cumsum(np.abs(camera), axis=1)
+        face = np.sum(u[:, None] * share[:, 2:] > share[:, :2], axis=1)
+        return np.eye(3)[face] * np.where(camera >= 0, 1.0, -1.0)
+    return np.broadcast_to([0.0, 0.0, 1.0], camera.shape).copy()
+
+
+def _normals_near(shape: str, half, spread, u, v) -> np.ndarray:
+    """Normals scattered about the half vector, where the mirror image of a light is."""
+    if shape == "sphere":
+        return draws.near(half, spread, u, v)
+    offset = spread * np.sqrt(-2 * np.log(1 - u)) * np.cos(2 * pi * v)
+    return draws.from_angles(np.zeros(len(u)), _angles(half)[1] + offset)
+
+
+def _normal_near_over_own(shape: str, normals, half, camera, spread) -> np.ndarray:
+    """Density of `_normals_near` over that of `_normals`; 0 on the far side, which is not in the picture."""
+    facing = draws.dot(normals, camera)
+    if shape == "sphere":
+        own = facing / pi
+        near = draws.near_density(normals, half, spread)
+    else:
+        own = 0.5 * facing / np.maximum(np.hypot(camera[:, 0], camera[:, 1]), 1e-12)
+        near = draws.bell(draws.wrapped(_angles(normals)[1] - _angles(half)[1]), spread)
+    return np.where(facing > 0, near / np.where(facing > 0, own, 1.0), 0.0)
+
+
+def listed(scene: Scene):
+    """The same for a scene that lists its directions: as they are."""
+    pairs = scene.pairs
+    camera = draws.from_angles(np.cos(np.radians([p.theta_r_deg for p in pairs])), 0.0)
+    lights = draws.from_angles(np.cos(np.radians([p.theta_i_deg for p in pairs])), np.radians([p.phi_deg for p in pairs]))
+    return np.array([p.weight for p in pairs]), camera, lights[:, None, :]

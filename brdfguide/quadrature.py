@@ -1,0 +1,145 @@
+"""The radiance that a reflectance law sends into the camera, over the pixels of a scene.
+
+    L = Σ_lights E ⟨f cos θi⟩_disc  +  mirror · (radiance of what is seen in the mirror)  +  environment
+
+A light is a disc and is averaged over; a mirror shows it; a uniform environment is integrated for a few view angles
+and interpolated. Everything is linear in f, so that the parts of a law can be integrated apart and added.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil, pi, radians
+
+import numpy as np
+
+from . import draws, pixels
+from .geometry import Geometry, rows
+from .scene import Scene
+
+LEAST_RADIUS = radians(0.5 / 60)  # half an arc minute: what the eye takes for a point
+MOST_DISC_POINTS = 48
+ENVIRONMENT_NODES, ENVIRONMENT_POINTS = 16, 192
+FLIP = np.array([-1.0, -1.0, 1.0])  # a direction to its mirror direction
+
+
+@dataclass(frozen=True, eq=False)
+class Quadrature:
+    """Pixels of a picture: light and view directions in the frame of the surface there."""
+
+    scene: Scene
+    seed: int
+    weights: np.ndarray  # (pixels,): share of the picture, sums to 1
+    to_camera: np.ndarray  # (pixels, 3)
+    to_lights: np.ndarray  # (pixels, lights, 3)
+    width: float  # of the narrowest lobe [rad]
+
+    def __len__(self) -> int:
+        return len(self.weights)
+
+    @property
+    def unit(self) -> float:
+        """Radiance is counted in that of a perfect white diffuser facing every light."""
+        return pi / self.scene.total_irradiance
+
+    @cached_property
+    def radii(self) -> np.ndarray:
+        """Radius [rad] of each light as one pixel sees it mirrored: its disc, and the turn of the normal within the pixel.
+
+        A disc of radius a has a variance of a²/4 about each axis; the mirror direction turns twice as far as the normal.
+        """
+        own = np.maximum([radians(light.radius_deg) for light in self.scene.lights], LEAST_RADIUS)
+        return np.sqrt(own**2 + 4 * (2 * self.scene.pixel_normal) ** 2)
+
+    @cached_property
+    def lit(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
+        """Directions (rows, 1) to the points of all discs, the factor each carries, and the pixel it belongs to."""
+        towards, factors, pixel = [], [], []
+        for place, (light, radius) in enumerate(zip(self.scene.lights, self.radii)):
+            # as many points as a lobe needs to vary little from one to the next
+            count = int(np.clip(ceil(4 * (radius / self.width) ** 2), 1, MOST_DISC_POINTS))
+            points = draws.cap(self.to_lights[:, place], radius if count > 1 else 0.0, count)
+            towards.append(points.reshape(-1, 3))
+            factors.append(np.full(len(self) * count, light.irradiance / count))
+            pixel.append(np.repeat(np.arange(len(self)), count))
+        towards, factors, pixel = np.concatenate(towards), np.concatenate(factors), np.concatenate(pixel)
+        above = towards[:, 2] > 0
+        geom = rows(Geometry.from_vectors(towards[above], self.to_camera[pixel[above]]))
+        return geom, (factors * towards[:, 2])[above] * self.unit, pixel[above]
+
+    @cached_property
+    def mirrored(self) -> tuple[Geometry, np.ndarray]:
+        """The mirror pair of each view direction (pixels, 1), and the radiance that a perfect mirror shows there."""
+        image = self.to_camera * FLIP
+        chord2 = np.sum((image[:, None, :] - self.to_lights) ** 2, axis=2)
+        brightness = np.array([light.irradiance for light in self.scene.lights]) / (pi * self.radii**2)
+        radiance = np.where(chord2 <= self.radii**2, brightness, 0.0).sum(axis=1) + self.scene.environment / pi
+        return rows(Geometry.from_vectors(image, self.to_camera)), radiance * self.unit
+
+    @cached_property
+    def around(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
+        """Directions all around at a few view angles, the factor of each row, and (pixels, nodes) to interpolate."""
+        rng = np.random.default_rng([self.seed, 1])
+        angles = np.radians(np.linspace(0.0, 89.5, ENVIRONMENT_NODES))
+        view = np.repeat(draws.from_angles(np.cos(angles), 0.0)[:, None, :], ENVIRONMENT_POINTS, axis=1)
+        u, v, which = rng.random((3, ENVIRONMENT_NODES, ENVIRONMENT_POINTS))
+        mirror, spread = view * FLIP, 2 * self.width
+        towards = np.where(which[..., None] < 0.5, draws.from_angles(np.sqrt(1 - u), 2 * pi * v), draws.near(mirror, spread, u, v))
+        cosine = np.maximum(towards[..., 2], 0.0)
+        density = 0.5 * cosine / pi + 0.5 * draws.near_density(towards, mirror, spread)
+        factor = self.scene.environment / pi * cosine / density / ENVIRONMENT_POINTS * self.unit
+        geom = rows(Geometry.from_vectors(towards.reshape(-1, 3), view.reshape(-1, 3)))
+        place = np.minimum(np.arccos(np.clip(self.to_camera[:, 2], 0, 1)) / angles[1], ENVIRONMENT_NODES - 1.0)
+        low = np.minimum(place.astype(int), ENVIRONMENT_NODES - 2)
+        between, pixel = np.zeros((len(self), ENVIRONMENT_NODES)), np.arange(len(self))
+        between[pixel, low], between[pixel, low + 1] = low + 1 - place, place - low
+        return geom, factor.ravel(), between
+
+    def radiance(self, brdf) -> np.ndarray:
+        """Relative radiance (pixels, channels) of the finite part of a law, `brdf(geom)` [1/sr]."""
+        geom, factor, pixel = self.lit
+        values = brdf(geom) * factor[:, None]
+        total = np.stack([np.bincount(pixel, column, len(self)) for column in values.T], axis=1)
+        if self.scene.environment:
+            geom, factor, between = self.around
+            values = brdf(geom) * factor[:, None]
+            total = total + between @ values.reshape(ENVIRONMENT_NODES, ENVIRONMENT_POINTS, -1).sum(axis=1)
+        return total
+
+    def mirror_radiance(self, mirror) -> np.ndarray:
+        """Relative radiance (pixels, channels) of the ideal specular part of a law, `mirror(geom)`, dimensionless."""
+        geom, radiance = self.mirrored
+        return mirror(geom) * radiance[:, None]
+
+    def at(self, wavelength) -> "Quadrature":
+        """The same pixels, with every geometry at other wavelengths [µm]."""
+        other = Quadrature(self.scene, self.seed, self.weights, self.to_camera, self.to_lights, self.width)
+        for name in ("lit", "mirrored", "around") if self.scene.environment else ("lit", "mirrored"):
+            geom, *rest = getattr(self, name)
+            other.__dict__[name] = (geom.at(wavelength), *rest)
+        return other
+
+    def box(self) -> dict[str, tuple[float, float]]:
+        """Smallest and largest angle [deg] from each pixel to the centre of each light."""
+        pixel = np.repeat(np.arange(len(self)), self.to_lights.shape[1])
+        geom = Geometry.from_vectors(self.to_lights.reshape(-1, 3), self.to_camera[pixel])
+        geom = geom[geom.lit]
+        angles = {
+            "theta_i_deg": geom.theta_i_deg,
+            "theta_r_deg": geom.theta_r_deg,
+            "phi_deg": np.abs(np.degrees(draws.wrapped(np.radians(geom.phi_deg)))),
+            "theta_h_deg": np.degrees(np.arctan(np.sqrt(geom.tan2_h))),
+            "theta_d_deg": np.degrees(np.arccos(np.clip(geom.cos_d, 0, 1))),
+        }
+        return {name: (float(values.min()), float(values.max())) for name, values in angles.items() if values.size}
+
+
+def draw(scene: Scene, size: int, seed: int, width: float) -> Quadrature:
+    """About `size` pixels of `scene`, only those that face the camera and some light.
+
+    Takes  width [rad], of the narrowest lobe that may be seen.    Gives  a Quadrature, the same for the same seed.
+    """
+    weights, camera, lights = pixels.listed(scene) if scene.pairs else pixels.drawn(scene, size, seed, width)
+    lit = np.any(lights[..., 2] > 0, axis=1) | (scene.environment > 0)
+    kept = (weights > 0) & (camera[:, 2] > 0) & lit
+    weights = weights[kept]
+    return Quadrature(scene, seed, weights / max(weights.sum(), 1e-300), camera[kept], lights[kept], width)
