@@ -64,7 +64,7 @@ def finished(measurement: Measurement, format: Format, options: Options) -> Meas
         measurement = conventions.as_brdf(measurement, options.quantity)
         text = f"values taken as {options.quantity}, as --quantity says"
         measurement = measurement.noting(Finding("quantity-by-option", text))
-    return conventions.without_marks(measurement)
+    return measurement if format.whole_table else conventions.without_marks(measurement)
 
 
 def selected(measurement: Measurement, *, wavelength=None, in_plane=False, theta_max=None) -> Measurement:

@@ -79,6 +79,7 @@ class Format:
     recognises: Callable[[bytes], bool]
     read: Callable[[Source, Options], Measurement]
     limit: int = TEXT_LIMIT  # bytes beyond which such a file is not believed
+    whole_table: bool = False  # a dense table with marks of its own for missing cells
     own_side: bool = True  # the format itself says on which side the mirror direction lies
 
 

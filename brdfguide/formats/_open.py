@@ -28,15 +28,14 @@ def stream(path, name: str):
         raise InputError(f"{name}: cannot be read: {error.strerror or error}") from None
 
 
-def whole(stream, head: bytes, limit: int, name: str) -> bytes:
+def whole(stream, head: bytes, limit: int, name: str) -> bytearray:
     """`head` and the rest of the stream. Raises InputError when it goes on beyond `limit` bytes."""
-    pieces, total = [head], len(head)
+    content = bytearray(head)
     while piece := stream.read(PIECE):
-        total += len(piece)
-        if total > limit:
-            raise InputError(f"{name}: goes on beyond {limit / 2**20:.0f} MB, more than such a file can honestly hold")
-        pieces.append(piece)
-    return b"".join(pieces)
+        content += piece
+        if len(content) > limit:
+            raise InputError(f"{name}: goes on beyond {limit / 1e6:.0f} MB, more than such a file can honestly hold")
+    return content
 
 
 class _Unpacked:

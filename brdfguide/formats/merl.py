@@ -1,0 +1,89 @@
+"""MERL `.binary`: a whole isotropic BRDF over half and difference angles, for red, green and blue.
+
+Three int32 (90, 90, 180), then three planes of float64 in units of 1/1500, 1.15/1500 and 1.66/1500 per sr. The index is
+phi_d + 180 (theta_d + 90 theta_h), with theta_h growing as the square of its index. Every cell becomes a sample at its
+centre; negative values and directions below the horizon are no data. A variant without reciprocity has 360 phi_d.
+
+Source: Matusik, Pfister, Brand and McMillan 2003, "A data-driven reflectance model".
+"""
+
+import numpy as np
+
+from ..geometry import Geometry
+from ..measurement import Finding, Measurement
+from ._base import RGB_UM, Format, Options, Source, nominal_colours
+
+SCALE = np.array([1.0, 1.15, 1.66]) / 1500
+THETA_H, THETA_D, PHI_D = 90, 90, 180
+LIMIT = 12 + 3 * 8 * THETA_H * THETA_D * 2 * PHI_D
+
+
+def recognises(head: bytes) -> bool:
+    dimensions = np.frombuffer(head[:12], "<i4").tolist() if len(head) >= 12 else None
+    return dimensions in ([THETA_H, THETA_D, PHI_D], [THETA_H, THETA_D, 2 * PHI_D])
+
+
+def read(source: Source, options: Options) -> Measurement:
+    """Raises InputError where the file is not exactly as long as its header says, or holds no value."""
+    phis = int(np.frombuffer(source.data[:12], "<i4")[2])
+    wanted = 12 + 3 * 8 * THETA_H * THETA_D * phis
+    if len(source.data) != wanted:
+        raise source.error(f"found {len(source.data)} bytes, wanted {wanted} for a table of {THETA_H} x {THETA_D} x {phis} cells in three colours")
+    planes = np.frombuffer(source.data, "<f8", offset=12).reshape(3, -1)
+    valid, below, invalid = _valid(planes, phis)
+    count = int(np.count_nonzero(valid))
+    if not count:
+        raise source.error("no cell above the horizon holds a value")
+    fields = {name: np.empty((count, 1)) for name in ("cos_i", "sin_i", "cos_r", "sin_r", "vxy2", "dot_xy", "cos_difference", "phi_deg")}
+    brdf = np.empty((count, 3))
+    start = 0
+    for theta_h in range(THETA_H):
+        cells = slice(theta_h * THETA_D * phis, (theta_h + 1) * THETA_D * phis)
+        picked = valid[cells]
+        rows = slice(start, start + int(np.count_nonzero(picked)))
+        for name, values in _directions(theta_h, phis).items():
+            fields[name][rows, 0] = values[picked]
+        for channel in range(3):
+            brdf[rows, channel] = planes[channel, cells][picked] * SCALE[channel]
+        start = rows.stop
+    phi_i = np.broadcast_to(np.zeros(1), (count, 1))
+    geom = Geometry(phi_i_deg=phi_i, wavelength=np.array([RGB_UM[name] for name in "RGB"]), **fields)
+    text = f"{count} of {THETA_H * THETA_D * phis} cells hold a value, each a sample at its centre that counts alike; {below} lie below the horizon"
+    consequence = "cells crowd toward the mirror direction: half of them lie within 22.5 degrees of it in half angle"
+    notes = [Finding("table", text, consequence=consequence, numbers=(("cells", count), ("below_horizon", below), ("invalid", invalid)))]
+    if invalid:
+        notes.append(Finding("invalid-cells", f"{invalid} cells above the horizon are marked as invalid and were dropped", numbers=(("cells", invalid),)))
+    notes.append(nominal_colours("RGB"))
+    return Measurement(geom, brdf, ("R", "G", "B"), name=source.name, format="MERL .binary", findings=tuple(notes))
+
+
+def _valid(planes, phis: int):
+    """Cells above the horizon with a value in some colour; how many lie below; how many of the rest have none."""
+    with np.errstate(invalid="ignore"):
+        filled = np.any((planes >= 0) & (planes < np.inf), axis=0)
+    lit = np.empty(filled.shape, bool)
+    for theta_h in range(THETA_H):
+        directions = _directions(theta_h, phis)
+        lit[theta_h * THETA_D * phis : (theta_h + 1) * THETA_D * phis] = (directions["cos_i"] > 0) & (directions["cos_r"] > 0)
+    return filled & lit, int(np.count_nonzero(~lit)), int(np.count_nonzero(lit & ~filled))
+
+
+def _directions(theta_h: int, phis: int) -> dict[str, np.ndarray]:
+    """Geometry of the cells of one theta_h, from half and difference angles at their centres; nothing is subtracted that could cancel."""
+    half = np.radians((theta_h + 0.5) ** 2 / THETA_H)
+    theta_d = np.radians((np.arange(THETA_D) + 0.5) * 90 / THETA_D)[:, None]
+    phi_d = np.radians((np.arange(phis) + 0.5) * 180 / PHI_D)[None, :]
+    sin_h, cos_h, sin_d, cos_d = np.sin(half), np.cos(half), np.sin(theta_d), np.cos(theta_d)
+    along, across = sin_d * np.cos(phi_d), sin_d * np.sin(phi_d)  # of the light, in the frame of the half vector
+    ix, iz = cos_h * along + sin_h * cos_d, cos_h * cos_d - sin_h * along
+    rx, rz = sin_h * cos_d - cos_h * along, cos_h * cos_d + sin_h * along
+    dot = ix * rx - across**2
+    fields = {
+        "cos_i": iz, "sin_i": np.hypot(ix, across), "cos_r": rz, "sin_r": np.hypot(rx, across),
+        "vxy2": np.broadcast_to(4 * (sin_h * cos_d) ** 2, iz.shape), "dot_xy": dot, "cos_difference": -2 * sin_h * along,
+        "phi_deg": np.degrees(np.arctan2(-across * (ix + rx), dot)),
+    }  # fmt: skip
+    return {name: values.reshape(-1) for name, values in fields.items()}
+
+
+FORMAT = Format("merl", (".binary",), recognises, read, limit=LIMIT, whole_table=True)

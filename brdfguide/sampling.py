@@ -1,0 +1,54 @@
+"""A few well-chosen directions out of very many: for searching, where the whole would only cost time."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from .measurement import Finding, Measurement
+
+THETA_I_BANDS = 16
+TILT_BANDS = 24
+AZIMUTH_BANDS = 16
+
+
+def subset(measurement: Measurement, count: int = 4000, seed: int = 0) -> Measurement:
+    """`count` directions that stand for all of them: stratified over incidence, tilt of the half vector and azimuth.
+
+    The directions are ordered by stratum, and one is drawn from each of `count` stretches of equal weight, so that every
+    stretch is represented and the mean of any quantity over the subset is an unbiased estimate of its weighted mean over
+    the whole. The result therefore carries no weights. Strata are bands of equal weight: narrow where the directions
+    crowd, as they do near the mirror direction.
+
+    The same seed gives the same directions. A measurement that is no larger is returned as it is.
+    """
+    size = len(measurement.geom)
+    if size <= count:
+        return measurement
+    weight = np.ones(size) if measurement.weights is None else measurement.weights[:, 0]
+    order = _by_stratum(measurement.geom, weight)
+    reach = np.cumsum(weight[order])
+    draws = (np.arange(count) + np.random.default_rng(seed).uniform(size=count)) * (reach[-1] / count)
+    rows = np.unique(order[np.searchsorted(reach, draws, side="right").clip(max=size - 1)])
+    picked = measurement[rows]
+    text = f"{len(rows)} of {size} directions used for the search, stratified over incidence, half angle and azimuth (seed {seed}); errors are over all"
+    note = Finding("subset", text, numbers=(("directions", len(rows)), ("of", size), ("seed", seed)))
+    return replace(picked, weights=None).noting(note)
+
+
+def _by_stratum(geom, weight) -> np.ndarray:
+    """Row numbers along a path that winds through the strata, neighbours on it being neighbours in all three angles."""
+    incidence = _bands(geom.cos_i[:, 0], weight, THETA_I_BANDS)
+    tilt = _bands(geom.tan2_h[:, 0], weight, TILT_BANDS)
+    azimuth = _bands(np.abs(np.remainder(geom.phi_deg[:, 0], 360.0) - 180.0), weight, AZIMUTH_BANDS)
+    tilt = np.where(incidence % 2, TILT_BANDS - 1 - tilt, tilt)
+    azimuth = np.where((incidence * TILT_BANDS + tilt) % 2, AZIMUTH_BANDS - 1 - azimuth, azimuth)
+    return np.argsort((incidence * TILT_BANDS + tilt) * AZIMUTH_BANDS + azimuth, kind="stable")
+
+
+def _bands(values, weight, number: int) -> np.ndarray:
+    """0..number-1: bands that hold equal weight."""
+    order = np.argsort(values, kind="stable")
+    reach = np.cumsum(weight[order])
+    bands = np.empty(len(values), np.int64)
+    bands[order] = np.minimum((reach - 0.5 * weight[order]) * (number / reach[-1]), number - 1)
+    return bands

@@ -1,0 +1,45 @@
+"""A subset stands for the whole: unbiased, reproducible, present in every corner."""
+
+import numpy as np
+import pytest
+
+from brdfguide import sampling
+from brdfguide.geometry import Geometry, rows
+from brdfguide.measurement import Measurement
+
+
+def scatter(size: int, seed: int = 3) -> Measurement:
+    draw = np.random.default_rng(seed)
+    geom = rows(Geometry.from_degrees(draw.uniform(0, 89, size), 0.0, draw.uniform(0, 89, size), draw.uniform(-180, 180, size)))
+    return Measurement(geom, np.exp(-geom.tan2_h) + 0.01)
+
+
+def test_small_measurement_is_returned_as_it_is():
+    measurement = scatter(100)
+    assert sampling.subset(measurement, 100) is measurement
+
+
+def test_same_seed_gives_the_same_directions():
+    first, again = (sampling.subset(scatter(20000), 500) for _ in range(2))
+    np.testing.assert_array_equal(first.brdf, again.brdf)
+    assert len(first.geom) == 500
+    assert first.findings[-1].code == "subset"
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_mean_over_a_subset_is_nearer_to_the_whole_than_a_blind_draw_would_be(seed):
+    measurement = scatter(40000)
+    values = np.log(measurement.brdf[:, 0])
+    picked = sampling.subset(measurement, 1000, seed)
+    blind = values.std() / np.sqrt(1000)
+    assert abs(np.log(picked.brdf).mean() - values.mean()) < 0.8 * blind
+
+
+def test_weights_become_density():
+    measurement = scatter(20000)
+    heavy = measurement.geom.theta_i_deg > 60
+    weighted = Measurement(measurement.geom, measurement.brdf, weights=np.where(heavy, 9.0, 1.0))
+    picked = sampling.subset(weighted, 2000)
+    assert picked.weights is None
+    share = float(np.mean(picked.geom.theta_i_deg > 60))
+    assert share == pytest.approx(float(np.sum(weighted.weights[heavy]) / weighted.weights.sum()), abs=0.02)
