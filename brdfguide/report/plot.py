@@ -1,0 +1,242 @@
+"""A ranking as a figure: log BRDF against reflection angle as in the report, what is left over, and error against run time."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+
+from ..geometry import in_plane, rows
+from ..measurement import Measurement
+from . import style
+
+NOMINAL_UM = 0.55  # the wavelength the report shows
+FAMILIES = ("phong", "ward", "lafortune", "he-torrance")  # the report's four, drawn beside the best
+MOST_LINES = 5
+# (azimuth off the plane, spread of theta_i) [deg]: as narrow a slice of the data as still has points in it
+SLICES = ((0.1, 0.05), (2.0, 0.5), (5.0, 2.5), (10.0, 5.0))
+LEAST_POINTS = 5
+
+
+@dataclass(frozen=True)
+class Line:
+    """A fitted model as the figures need it."""
+
+    name: str
+    model: object
+    values: dict
+    rms_ln: float
+    ns: float | None = None
+    on_front: bool = False
+
+
+def lines_of(ranking) -> list[Line]:
+    """Every row of a Ranking, best first."""
+    return [Line(r.fit.model.name, r.fit.model, r.fit.values, r.rms_ln, r.ns_per_sample, r.on_front) for r in ranking.rows]
+
+
+def fit(ranking, measurement: Measurement, path) -> None:
+    """Draw the ranking into `path`, a .png, .svg or .pdf file."""
+    style.suffix(path)
+    with style.look():
+        fig = style.figure(180, 172)
+        above, below = fig.subfigures(2, 1, height_ratios=(1.75, 1))
+        lines = lines_of(ranking)
+        _lobes(above, chosen(lines), measurement)
+        _cost(below, lines)
+        style.save(fig, path)
+
+
+def lobes(lines: list[Line], measurement: Measurement, width_mm=180, height_mm=105, note=None):
+    """The upper figure alone."""
+    with style.look():
+        fig = style.figure(width_mm, height_mm)
+        _lobes(fig, lines, measurement)
+        if note:
+            style.origin(fig, note)
+        return fig
+
+
+def cost(lines: list[Line], width_mm=180, height_mm=72):
+    """Error against run time alone."""
+    with style.look():
+        fig = style.figure(width_mm, height_mm)
+        _cost(fig, lines)
+        return fig
+
+
+def chosen(lines: list[Line]) -> list[Line]:
+    """The best, and the best of each of the report's four families: more lines than that cannot be told apart."""
+    if len(lines) <= MOST_LINES:
+        return list(lines)
+    wanted = [lines[0].name]
+    for family in FAMILIES:
+        words = lambda line: {word.partition(":")[0] for word in line.name.split("+")}  # noqa: E731
+        wanted += [line.name for line in lines if family in words(line)][:1]
+    return [line for line in lines if line.name in wanted][:MOST_LINES]
+
+
+def nominal_channel(measurement: Measurement) -> int:
+    """The channel nearest 550 nm among those with values."""
+    wavelength = np.broadcast_to(measurement.geom.wavelength, (len(measurement.channels),))
+    filled = measurement.usable.any(axis=0)
+    return int(np.argmin(np.where(filled, np.abs(wavelength - NOMINAL_UM), np.inf)))
+
+
+def slices(measurement: Measurement, channel: int, most: int = 3) -> tuple[list[tuple[float, np.ndarray]], tuple[float, float]]:
+    """Well-spread incidence angles with their rows in or near the plane of incidence, and how near."""
+    theta_i = measurement.geom.theta_i_deg[:, 0]
+    off, usable = measurement.geom.off_plane_deg[:, 0], measurement.usable[:, channel]
+    found = []
+    for off_plane, spread in SLICES:
+        near = usable & (off <= off_plane)
+        centres = np.unique(np.round(theta_i[near], 1))
+        taken = [(float(c), np.flatnonzero(near & (np.abs(theta_i - c) <= spread))) for c in centres]
+        found = [(c, picked) for c, picked in taken if picked.size >= LEAST_POINTS]
+        if len(found) >= min(most, np.unique(np.round(theta_i[usable] / 5)).size):
+            break
+    angles = np.array([c for c, _ in found])
+    wanted = np.linspace(angles.min(), angles.max(), min(most, len(found))) if found else []
+    places = sorted({int(np.argmin(np.abs(angles - target))) for target in wanted})
+    return [found[place] for place in places], (off_plane, spread)
+
+
+def at_channel(values: dict, channel: int) -> dict:
+    """Scalars, of parameters that have one value per channel."""
+    return {key: np.asarray(v)[channel] if np.ndim(v) else v for key, v in values.items()}
+
+
+def curve(line: Line, theta_i: float, theta_r, wavelength, channel: int) -> np.ndarray:
+    """The model in the plane of incidence, finite part only."""
+    geom = rows(in_plane(theta_i, theta_r, np.array([wavelength])))
+    return line.model(geom, at_channel(line.values, channel))[:, 0]
+
+
+def _lobes(fig, lines, measurement):
+    channel = nominal_channel(measurement)
+    wavelength = float(np.broadcast_to(measurement.geom.wavelength, (len(measurement.channels),))[channel])
+    panels, (off_plane, spread) = slices(measurement, channel)
+    if not panels:
+        fig.text(0.5, 0.5, "too few directions near the plane of incidence to draw", ha="center")
+        return
+    axes = fig.subplots(2, len(panels), sharex="col", sharey="row", height_ratios=(3.2, 1), squeeze=False)
+    everything = np.concatenate([measurement.brdf[picked, channel] for _, picked in panels])
+    left_over = []
+    for place, (theta_i, picked) in enumerate(panels):
+        part = measurement[picked]
+        theta_r, value = part.geom.signed_theta_r_deg[:, 0], part.brdf[:, channel]
+        top, strip = axes[:, place]
+        reach = min(89.0, np.abs(theta_r).max() + 1)
+        grid = _grid(theta_i, -reach if theta_r.min() < 0 else 0.0, reach)
+        for number, line in enumerate(lines):
+            look = dict(color=style.COLOURS[number % 8], zorder=3 - 0.01 * number)
+            top.plot(grid, _positive(curve(line, theta_i, grid, wavelength, channel)), ls=style.DASHES[number % 8], **look)
+            model = line.model(part.geom.at(np.array([wavelength])), at_channel(line.values, channel))[:, 0]
+            residual = np.log(_positive(model) / value)
+            left_over.append(residual[np.isfinite(residual)])
+            strip.plot(theta_r, residual, style.MARKERS[number % 8], ms=1.6, mew=0, alpha=0.85, **look)
+        top.plot(theta_r, value, "o", color=style.INK, ms=2.3, mew=0, zorder=2, alpha=0.75)
+        strip.axhline(0, color=style.INK, lw=0.6)
+        for axis in (top, strip):
+            axis.axvline(theta_i, color=style.RULE, lw=0.8, zorder=0)
+        top.set_title(f"$\\theta_i$ = {theta_i:g}°")
+        top.set_xlim(-reach if theta_r.min() < 0 else min(0.0, theta_r.min()), reach)
+        strip.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 1.5, 2, 3, 5, 10]))
+    low, high = everything.min() / 1.8, everything.max() * 1.8
+    axes[0, 0].set_yscale("log")
+    axes[0, 0].set_ylim(low, high)
+    if high / low < 200:
+        _plain_log(axes[0, 0].yaxis)
+    axes[0, 0].set_ylabel("BRDF [sr$^{-1}$]")
+    axes[1, 0].set_ylabel("ln(model/data)")
+    limit = min(3.0, max(0.15, 1.15 * np.quantile(np.abs(np.concatenate(left_over)), 0.98))) if left_over else 1.0
+    axes[1, 0].set_ylim(-limit, limit)
+    fig.supxlabel("reflection angle $\\theta_r$ [deg], mirror direction marked", fontsize=8)
+    _legend(fig, lines, measurement, channel, wavelength, off_plane, spread)
+
+
+def _legend(fig, lines, measurement, channel, wavelength, off_plane, spread):
+    where = "in plane" if off_plane < 1 else f"within {off_plane:g}° of the plane of incidence"
+    name = measurement.channels[channel]
+    label = "data" if name == "brdf" else f"data, {name}"
+    handles = [Line2D([], [], ls="", marker="o", color=style.INK, ms=3, mew=0, label=f"{label}, {where}")]
+    for number, line in enumerate(lines):
+        handles.append(Line2D([], [], color=style.COLOURS[number % 8], ls=style.DASHES[number % 8], label=f"{line.name}  (rms ln {line.rms_ln:.3g})"))
+    fig.legend(handles=handles, loc="outside upper left", ncols=2, columnspacing=2.5)
+
+
+def _cost(fig, lines):
+    axis = fig.subplots()
+    timed = [line for line in lines if line.ns]
+    if not timed:
+        _errors_only(axis, lines)
+        return
+    time, error = np.array([line.ns for line in timed]), np.array([line.rms_ln for line in timed])
+    front = np.array([line.on_front for line in timed])
+    order = np.argsort(time[front])
+    axis.step(np.append(time[front][order], time.max() * 1.6), np.append(error[front][order], error[front].min()), where="post",
+              color=style.COLOURS[0], lw=1, zorder=1, label="Pareto front: none is better in both")  # fmt: skip
+    axis.plot(time[front], error[front], "o", color=style.COLOURS[0], ms=4.5, zorder=3)
+    axis.plot(time[~front], error[~front], "o", mfc=style.PAPER, color=style.INK, ms=4, mew=0.8, zorder=2)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.set_xlim(time.min() / 1.25, time.max() * 4)
+    axis.set_ylim(error.min() / 1.25, error.max() * 1.35)
+    _plain_log(axis.yaxis)
+    _plain_log(axis.xaxis)
+    axis.set_xlabel("time per sample [ns]")
+    axis.set_ylabel("error, rms ln")
+    axis.legend(loc="upper right")
+    _name_points(fig, axis, timed, time, error)
+
+
+def _errors_only(axis, lines):
+    """Without times: one row per model."""
+    places = np.arange(len(lines))
+    axis.plot([line.rms_ln for line in lines], places, "o", color=style.COLOURS[0], ms=4)
+    axis.set_yticks(places, [line.name for line in lines])
+    axis.invert_yaxis()
+    axis.set_xscale("log")
+    _plain_log(axis.xaxis)
+    axis.grid(axis="y")
+    axis.set_xlabel("error, rms ln (times left out)")
+
+
+def _name_points(fig, axis, lines, time, error):
+    """A name beside each point, where no other name or point stands and inside the frame."""
+    fig.figure.draw_without_rendering()
+    scale = fig.figure.dpi / 72
+    at = axis.transData.transform(np.column_stack((time, error))) / scale  # in points
+    frame = axis.get_window_extent().extents / scale
+    taken = [(x - 3, y - 3, x + 3, y + 3) for x, y in at]
+    for place in np.argsort(at[:, 1]):
+        (x, y), width = at[place], 4.1 * len(lines[place].name)
+        offsets = [(dx, dy) for step in range(1, 12) for dy in (5.5 * step, -5.5 * step) for dx in (3, -3 - width)]
+        for dx, dy in offsets:
+            box = (x + dx, y + dy - 4, x + dx + width, y + dy + 4)
+            inside = frame[0] < box[0] and box[2] < frame[2] and frame[1] < box[1] and box[3] < frame[3]
+            if inside and not any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
+                break
+        taken.append(box)
+        leader = dict(arrowstyle="-", lw=0.4, color=style.INK, shrinkA=0, shrinkB=2) if abs(dy) > 8 else None
+        axis.annotate(lines[place].name, (time[place], error[place]), (dx, dy), textcoords="offset points", va="center",
+                      fontsize=7, arrowprops=leader, bbox=dict(fc=style.PAPER, ec="none", pad=0.5))  # fmt: skip
+
+
+def _plain_log(axis):
+    """Plain numbers on a log axis, as few as fit."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=20))
+    axis.set_major_formatter(lambda value, _: f"{value:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _grid(theta_i, low, high):
+    """Every half degree, and closer near the mirror direction where a narrow lobe would fall between."""
+    fine = theta_i + np.concatenate((-(np.geomspace(2, 0.01, 25)), [0.0], np.geomspace(0.01, 2, 25)))
+    grid = np.unique(np.concatenate((np.linspace(low, high, int(2 * (high - low)) + 1), fine)))
+    return grid[(grid >= low) & (grid <= high)]
+
+
+def _positive(values):
+    """Zeros as NaN, so that a log axis leaves them out."""
+    return np.where(values > 0, values, np.nan)
