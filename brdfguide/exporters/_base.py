@@ -1,0 +1,189 @@
+"""What every file in this folder provides: one target, what it can express, and the text or bytes it loads.
+
+An exporter never writes a file and never claims more than it measured: each result carries a `Statement` with the
+rms ln ratio between the target's own law, with the very numbers written, and the model, the metric of the rankings.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from .. import __version__
+from ..errors import InputError, NoAnswer
+from ..geometry import Geometry, rows
+from ..models._base import Sum
+from . import _colour
+
+EXACT = 1e-4  # rms ln below which an export may call itself exact: float32 and printed digits are finer
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What is exported: a model with its parameters, and the channels these belong to."""
+
+    model: Sum
+    values: Mapping
+    channels: tuple[str, ...] = ("brdf",)
+    wavelength: np.ndarray = field(default_factory=lambda: np.array([0.55]))  # [µm], one a channel
+    name: str = "surface"
+    command: str = ""  # the command line that asked for it, for the file's comment
+
+    @cached_property
+    def colour(self) -> _colour.Colour:
+        return _colour.to_srgb(self.channels, self.wavelength)
+
+    @cached_property
+    def labels(self) -> dict:
+        """Label of each term -> its model."""
+        return {term.label: term.model for term in self.model.terms}
+
+    @property
+    def laws(self) -> list[str]:
+        """Names of the terms, sorted: what an exporter looks at to see what it can express."""
+        return sorted(term.model.name for term in self.model.terms)
+
+    def of(self, label: str) -> dict:
+        """All parameters of one term, under bare names."""
+        term = next(t for t in self.model.terms if t.label == label)
+        return {**term.model.defaults(), **self.model.of_term(term, {**self.model.fixed, **self.values})}
+
+    def spectral(self, geom: Geometry) -> np.ndarray:
+        """Finite part of the BRDF [1/sr], (samples, channels)."""
+        geom = rows(geom).at(np.asarray(self.wavelength, float))
+        return np.broadcast_to(self.model(geom, self.values), (len(geom), len(self.channels)))
+
+    def rgb(self, geom: Geometry) -> np.ndarray:
+        """The same in linear sRGB, (samples, 3); negative where a colour lies outside the gamut."""
+        return self.spectral(geom) @ self.colour.matrix.T
+
+    def mirror_rgb(self, geom: Geometry) -> np.ndarray:
+        """Reflectance of the ideal mirror at theta_i in linear sRGB, (samples, 3)."""
+        geom = rows(geom).at(np.asarray(self.wavelength, float))
+        mirror = np.broadcast_to(self.model.mirror(geom, self.values), (len(geom), len(self.channels)))
+        return mirror @ self.colour.matrix.T
+
+    @cached_property
+    def mirror_most(self) -> float:
+        """The most that the ideal mirror reflects at 0 to 80 degrees."""
+        if not self.model.has_mirror:
+            return 0.0
+        theta = np.linspace(0.0, 80.0, 17)
+        return float(np.max(self.mirror_rgb(Geometry.from_degrees(theta, 0.0, theta, 180.0))))
+
+
+@dataclass(frozen=True)
+class Statement:
+    """What an export costs, for people and for programs."""
+
+    target: str
+    status: str  # exact, refit or lossy
+    rms_ln: float
+    directions: int
+    over: str  # which directions, in words
+    written: Mapping = field(default_factory=dict)  # the numbers in the file
+    lost: tuple[str, ...] = ()  # sentences: what the target cannot hold
+    notes: tuple[str, ...] = ()  # sentences: what its user should know
+    colour: str = ""
+
+    def sentence(self) -> str:
+        """One line for a person."""
+        lost = "; ".join(self.lost)
+        return f"{self.target}: {self.status}, rms ln {self.rms_ln:.2g} over {self.over}" + (f"; {lost}" if lost else "")
+
+
+@dataclass(frozen=True)
+class Export:
+    """The file, files that must lie beside it (suffix -> content), and what they cost."""
+
+    content: str | bytes
+    statement: Statement
+    beside: Mapping[str, str | bytes] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Exporter:
+    """One target. `supports` gives "exact", "refit" or "lossy", or raises `Refused`."""
+
+    module: str
+    suffix: str
+    what: str  # one line for the catalogue
+    supports: Callable[[Surface], str]
+    # export(surface, geom, stem) -> Export; geom None: the standard directions; stem: name of the file without its suffix
+    export: Callable[..., Export]
+
+    @property
+    def name(self) -> str:
+        return self.module.rpartition(".")[2].replace("_", "-")
+
+
+class Refused(NoAnswer):
+    """A surface that the target cannot express; names the nearest target that can."""
+
+    def __init__(self, target: str, why: str, nearest: str):
+        super().__init__(f"{target} cannot express this surface: {why}; the nearest target that can is {nearest}")
+        self.nearest = nearest
+
+
+def refuse_mirror(surface: Surface, target: str, most: float = 0.01) -> tuple[str, ...]:
+    """Refuses a surface whose ideal mirror carries more than `most`; otherwise the sentence that says what is lost."""
+    share = surface.mirror_most
+    if share > most:
+        raise Refused(target, f"its ideal mirror reflects up to {share:.2g} of the light, and the target holds only finite values", "mitsuba")
+    if share > 1e-6:
+        return (f"the ideal mirror, at most {share:.1g} of the light, is left out",)
+    return ()
+
+
+def header(surface: Surface, statement: Statement) -> list[str]:
+    """The lines of a file's comment: who made it from what, and what it costs. No time of day, so that bytes repeat."""
+    parameters = " ".join(f"{key}={_spelt(value)}" for key, value in sorted(surface.values.items()))
+    lines = [f"brdfguide {__version__}", f"command: {surface.command}" if surface.command else "", f"surface: {surface.name}",
+             f"model: {surface.model.name}", f"parameters: {parameters}", f"colour: {statement.colour or surface.colour.how}",
+             statement.sentence(), *statement.notes]  # fmt: skip
+    return [line.replace("--", "- -").replace("*/", "* /").replace("\n", " ") for line in lines if line]
+
+
+def _spelt(value) -> str:
+    return ",".join(f"{x:.6g}" for x in np.ravel(value))
+
+
+def number(value, low: float, high: float, what: str) -> float:
+    """`value` rounded to nine digits, within low..high. A number outside is our own mistake and never reaches a file."""
+    value = float(value)
+    rounded = float(f"{value:.9g}")
+    if not low <= rounded <= high:  # also catches NaN
+        raise NoAnswer(f"{what} = {value:g} is outside {low:g}..{high:g}, the range its reader documents; nothing was written")
+    return rounded
+
+
+def numbers(values, low: float, high: float, what: str) -> list[float]:
+    """Each of `values` as `number` gives it."""
+    return [number(value, low, high, what) for value in np.ravel(values)]
+
+
+def rgb_numbers(values, low: float, high: float, what: str) -> list[float]:
+    """Three of them, from one or three."""
+    return numbers(np.broadcast_to(np.ravel(values), (3,)), low, high, what)
+
+
+def three(text_of) -> str:
+    """Numbers separated by blanks, as most formats want them."""
+    return " ".join(f"{x:.9g}" for x in text_of)
+
+
+def check_values(model: Sum, values: Mapping, channels: int) -> dict:
+    """Values as arrays or floats, each finite, within its bounds, and one or `channels` long. Raises InputError."""
+    checked = {}
+    for key, value in values.items():
+        if key not in model.parameters:
+            raise InputError(f"{key} is no parameter of {model.name}; there are: {', '.join(model.parameters)}")
+        parameter = model.parameters[key]
+        array = np.asarray(value, float)
+        if not np.all(np.isfinite(array)) or np.any(array < parameter.low) or np.any(array > parameter.high):
+            raise InputError(f"{key} = {_spelt(array)} is outside {parameter.low:g}..{parameter.high:g}")
+        if array.ndim and array.size not in (1, channels):
+            raise InputError(f"{key} has {array.size} values for {channels} channels")
+        checked[key] = array if array.ndim and array.size > 1 else float(np.ravel(array)[0])
+    return checked
