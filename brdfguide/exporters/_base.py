@@ -47,7 +47,7 @@ class Surface:
     def of(self, label: str) -> dict:
         """All parameters of one term, under bare names."""
         term = next(t for t in self.model.terms if t.label == label)
-        return {**term.model.defaults(), **self.model.of_term(term, {**self.model.fixed, **self.values})}
+        return {**term.model.defaults(), **self.model.of_term(term, {**self.model.start, **self.model.fixed, **self.values})}
 
     def spectral(self, geom: Geometry) -> np.ndarray:
         """Finite part of the BRDF [1/sr], (samples, channels)."""

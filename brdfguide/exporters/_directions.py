@@ -1,0 +1,59 @@
+"""Which directions an export is judged over, and the metric: rms of ln(target's law / model).
+
+The data's own directions where the caller has them. Otherwise a grid: theta_i and theta_r 0 to 80 degrees by 10 with
+seven azimuths, and steps of 0.25 to 16 degrees about each mirror direction, so that a lobe of 0.2 degrees is seen.
+"""
+
+import numpy as np
+
+from ..geometry import Geometry, rows
+
+FAINTEST = 1e-4  # of the brightest value at the same incidence: what lies below nobody sees, and a logarithm would count it in full
+NEAR = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0])  # degrees from the mirror direction
+
+
+def standard() -> Geometry:
+    """The grid above, (samples, 1)."""
+    theta = np.arange(0.0, 81.0, 10.0)
+    azimuth = np.array([0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0])
+    regular = np.array(np.meshgrid(theta, theta, azimuth, indexing="ij")).reshape(3, -1)
+    about = []
+    for theta_i in theta:
+        for step in NEAR:
+            about += [(theta_i, abs(theta_i - step), 180.0 if theta_i >= step else 0.0)]
+            about += [(theta_i, theta_i + step, 180.0)] if theta_i + step < 90 else []
+            if theta_i > 0:
+                sideways = step / np.sin(np.radians(theta_i))
+                about += [(theta_i, theta_i, 180.0 - sideways)] if sideways < 90 else []
+    theta_i, theta_r, phi = np.concatenate([regular, np.array(about).T], axis=1)
+    return rows(Geometry.from_degrees(theta_i, 0.0, theta_r, phi))
+
+
+STANDARD_WORDS = "directions with theta_i 0..80 deg"
+
+
+def chosen(surface, geom: Geometry | None) -> tuple[Geometry, np.ndarray, str]:
+    """Directions, the surface's linear sRGB there (samples, 3), NaN where it does not count, and both in words."""
+    words = STANDARD_WORDS if geom is None else "of the data's directions"
+    geom = standard() if geom is None else rows(geom)
+    rgb = surface.rgb(geom)
+    counted = geom.lit & (rgb > 0)
+    incidence = np.round(geom.theta_i_deg[:, 0], 1)
+    for theta_i in np.unique(incidence):
+        here = incidence == theta_i
+        brightest = np.max(np.where(counted[here], rgb[here], 0.0), axis=0)
+        counted[here] &= rgb[here] >= FAINTEST * brightest
+    kept = counted.any(axis=1)
+    wanted = np.where(counted[kept], rgb[kept], np.nan)
+    return geom[kept], wanted, f"{int(kept.sum())} {words}, brighter than 1e-4 of that incidence's peak"
+
+
+def rms_ln(law: np.ndarray, wanted: np.ndarray) -> float:
+    """rms of ln(law / wanted) where wanted counts; infinite where the law is 0 and the surface is not."""
+    counted = np.isfinite(wanted)
+    law = np.broadcast_to(law, wanted.shape)[counted]
+    if not law.size:
+        return 0.0
+    if np.any(law <= 0):
+        return float("inf")
+    return float(np.sqrt(np.mean(np.log(law / wanted[counted]) ** 2)))

@@ -1,0 +1,152 @@
+"""Fits a target's own law to the chosen model: bounded, in ln, from several starts.
+
+A `Law` is a renderer's BRDF as that renderer evaluates it. Its parameters are the numbers of its file, so that their
+bounds are the ranges its reader documents and nothing outside them can be written.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from scipy.optimize import nnls
+
+from .. import levenberg
+from ..geometry import Geometry
+from ..models._base import Parameter
+from ._directions import rms_ln
+
+STEP = 1e-6  # of a parameter's scale, for differences
+DARKEST = 1e-13  # of what is wanted: bounds the residual of a law that vanishes, in the search only
+
+
+@dataclass(frozen=True)
+class Law:
+    """brdf(geom, **values) -> (samples, colours) [1/sr]; per-channel parameters have one value a colour."""
+
+    parameters: tuple[Parameter, ...]
+    brdf: Callable[..., np.ndarray]
+
+    def at(self, geom: Geometry, values: Mapping) -> np.ndarray:
+        return self.brdf(geom, **values)
+
+    def with_fixed(self, **fixed) -> "Law":
+        """The same law with some parameters held."""
+        free = tuple(p for p in self.parameters if p.name not in fixed)
+        return Law(free, lambda geom, **values: self.brdf(geom, **fixed, **values))
+
+
+@dataclass(frozen=True)
+class Refit:
+    """Parameters of the law (per-channel ones as arrays) and what is left."""
+
+    values: dict
+    rms_ln: float
+
+
+def fit(law: Law, wanted: np.ndarray, geom: Geometry, refine: int = 2) -> Refit:
+    """The law's parameters nearest to `wanted` (samples, colours; NaN: does not count) in rms ln."""
+    grey = bool(np.all((wanted == wanted[:, :1]) | ~np.isfinite(wanted)))
+    shown = wanted[:, :1] if grey else wanted
+    begun = sorted((_start(law, values, shown, geom) for values in _starts(law)), key=lambda each: each[0])
+    best = min((_search(law, values, shown, geom) for _, values in begun[:refine]), key=lambda each: each.rms_ln)
+    return best
+
+
+def _starts(law: Law):
+    searched = [p for p in law.parameters if not p.linear]
+    for combination in product(*(p.starts or (p.default,) for p in searched)):
+        yield dict(zip((p.name for p in searched), combination))
+
+
+def _start(law: Law, values: dict, wanted, geom) -> tuple[float, dict]:
+    """Amplitudes for given shapes: least squares of the relative error, none negative; with its rms ln."""
+    colours = wanted.shape[1]
+    values = {name: np.full(colours, value) if _parameter(law, name).per_channel else value for name, value in values.items()}
+    linear = [p for p in law.parameters if p.linear]
+    nothing = {p.name: np.zeros(colours) if p.per_channel else 0.0 for p in linear}
+    if linear:
+        rest = np.broadcast_to(law.brdf(geom, **values, **nothing), wanted.shape)
+        basis = [np.broadcast_to(law.brdf(geom, **values, **{**nothing, p.name: nothing[p.name] + 1.0}), wanted.shape) - rest for p in linear]
+        for colour in range(colours):
+            counted = np.isfinite(wanted[:, colour])
+            matrix = np.array([b[counted, colour] / wanted[counted, colour] for b in basis]).T
+            amounts, _ = nnls(matrix, 1 - rest[counted, colour] / wanted[counted, colour])
+            for p, amount in zip(linear, amounts):
+                # a zero amplitude has no logarithm's slope to leave it by, and a bound none to come back
+                amount = np.clip(amount, max(p.low, 1e-4), 0.98 * p.high)
+                if p.per_channel:
+                    nothing[p.name][colour] = amount
+                else:
+                    nothing[p.name] = max(nothing[p.name], amount)
+    values = {**values, **nothing}
+    residual = _residual(law.brdf(geom, **values), wanted)
+    return float(np.sqrt(np.mean(residual**2))), values
+
+
+def _search(law: Law, values: dict, wanted, geom) -> Refit:
+    """Levenberg-Marquardt from `values`; shapes shared by the colours, amplitudes of their own."""
+    shared = [p for p in law.parameters if not p.per_channel]
+    own = [p for p in law.parameters if p.per_channel]
+    colours = wanted.shape[1]
+    start = np.array([_inward(p, values[p.name]) for p in shared])
+    own_start = np.array([[_inward(p, values[p.name][c]) for p in own] for c in range(colours)]).reshape(colours, len(own))
+
+    def unpack(x, y):
+        named = {p.name: _outward(p, x[i]) for i, p in enumerate(shared)}
+        return named | {p.name: _outward(p, y[:, j]) for j, p in enumerate(own)}
+
+    def residuals(x, y, slopes):
+        r = _residual(law.brdf(geom, **unpack(x, y)), wanted)
+        if not slopes:
+            return r
+        j_shared = np.empty((colours, len(geom), len(shared)))
+        j_own = np.empty((colours, len(geom), len(own)))
+        for i, p in enumerate(shared):
+            step = _step(p, x[i])
+            moved = x.copy()
+            moved[i] += step
+            j_shared[:, :, i] = ((_residual(law.brdf(geom, **unpack(moved, y)), wanted) - r) / step).T
+        for j, p in enumerate(own):
+            step = np.array([_step(p, value) for value in y[:, j]])
+            moved = y.copy()
+            moved[:, j] += step
+            j_own[:, :, j] = ((_residual(law.brdf(geom, **unpack(x, moved)), wanted) - r) / step).T
+        return r, j_shared, j_own
+
+    low, high = _bounds(shared)
+    own_low, own_high = _bounds(own)
+    found = levenberg.minimise(residuals, start, own_start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-7, most=60)
+    values = unpack(np.clip(found.shared, low, high), np.clip(found.own, own_low, own_high))
+    return Refit(values, rms_ln(law.brdf(geom, **values), wanted))
+
+
+def _residual(law, wanted):
+    """ln(law / wanted), 0 where it does not count."""
+    counted = np.isfinite(wanted)
+    wanted = np.where(counted, wanted, 1.0)
+    law = np.where(counted, np.broadcast_to(law, wanted.shape), 1.0)
+    return np.where(counted, np.log(np.maximum(law, DARKEST * wanted) / wanted), 0.0)
+
+
+def _parameter(law: Law, name: str) -> Parameter:
+    return next(p for p in law.parameters if p.name == name)
+
+
+def _inward(p: Parameter, value):
+    """The coordinate that is searched: a logarithm from the origin, or the value."""
+    return np.log(value - p.origin) if p.log else value
+
+
+def _outward(p: Parameter, coordinate):
+    return np.clip(np.exp(coordinate) + p.origin, p.low, p.high) if p.log else coordinate
+
+
+def _bounds(parameters):
+    return np.array([_inward(p, p.low) for p in parameters]), np.array([_inward(p, p.high) for p in parameters])
+
+
+def _step(p: Parameter, coordinate) -> float:
+    """A difference that stays within the bounds."""
+    step = STEP if p.log else STEP * max(p.high - p.low, 1e-3)
+    return -step if coordinate + step > _inward(p, p.high) else step
