@@ -96,9 +96,12 @@ def minimise(
         step, own_step = trial - shared, own_trial - own
         expected = -_model_change(normal, g_shared, g_own, step, own_step)
         small = _largest(step, shared) + _largest(own_step, own) < tolerance * 1e-2
-        if small or expected <= 0:
+        if small:
             converged = True
             break
+        if expected <= 0:  # a bound cut the step so that it climbs: a shorter one will not
+            damping, grow = damping * grow, grow * 2
+            continue
         r_trial = residuals(trial, own_trial, False)
         evaluations += 1
         cost_trial = float(np.sum(r_trial * r_trial))
