@@ -1,0 +1,73 @@
+"""He and Torrance's sum over orders of scattering, term by term: the reference that everything faster is built from.
+
+    S(g, y) = sum over m >= 1 of  g^m e^-g / (m! m) · e^(-y/m),     y = (2π tau/λ)² |v_xy|² / 4
+
+The logarithms of the terms are concave in m, so there is one hump. With u = W(2y/g²)/2 its top is m* = g e^u
+and its width w = √(m*/(1 + 2u)). A narrow hump is summed over its whole numbers. A wide one is as good as its
+integral, to exp(-2π²w²), which needs few nodes in t, m = m* (1 + wt/(p m*))^p, p = 3/2 + 3u, where the hump has no skew.
+"""
+
+from math import factorial, log, pi
+
+import numpy as np
+
+from ..special import horner, lambert_w
+
+WIDE = 7.0  # hump width from which the integral stands for the sum
+NODES = np.arange(-8.4, 8.41, 0.6)
+PSI = tuple((j - 1) / factorial(j) for j in range(2, 16))
+STIRLING = (1 / 12, -1 / 360, 1 / 1260, -1 / 1680)
+LONGEST = 4096
+LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)))]) + np.log(np.maximum(np.arange(LONGEST), 1))
+
+
+def ln_series(g, y):
+    """ln S to 3e-13, for g > 0 and y >= 0, which broadcast."""
+    g, y = np.broadcast_arrays(np.asarray(g, float), np.asarray(y, float))
+    shape, g, y = g.shape, g.ravel(), y.ravel()
+    u, top, width = hump(g, y)
+    result = np.empty(g.size)
+    order = np.argsort(width, kind="stable")
+    first_wide = np.searchsorted(width[order], WIDE)
+    for start in range(0, first_wide, 512):  # neighbours in width need windows of one length
+        part = order[start : min(start + 512, first_wide)]
+        result[part] = _over_orders(g[part], y[part], top[part], width[part])
+    for start in range(first_wide, g.size, 512):
+        part = order[start : start + 512]
+        result[part] = _integral(g[part], y[part], u[part], top[part], width[part])
+    return result.reshape(shape)
+
+
+def hump(g, y):
+    """Where the hump is: u, its top m* and its width."""
+    scale = np.maximum(g, 1e-120)  # squared without underflow; this only places windows and nodes
+    u = 0.5 * lambert_w(2 * (y / scale) / scale)
+    top = scale * np.exp(u)
+    return u, top, np.sqrt(top / (1 + 2 * u))
+
+
+def _over_orders(g, y, top, width):
+    """The sum over the whole numbers around a narrow hump."""
+    first = np.maximum(np.floor(top - 8.5 * width - 2), 1).astype(int)
+    count = int(np.ceil(np.max(top + 12 * width + 14 - first)))
+    m = first[:, None] + np.arange(count)
+    exponent = m * np.log(g)[:, None] - LN_FACTORIAL_M[m] - y[:, None] / m
+    highest = exponent.max(axis=1)
+    return highest - g + np.log(np.exp(np.maximum(exponent - highest[:, None], -60.0)).sum(axis=1))
+
+
+def _integral(g, y, u, top, width):
+    """The trapezoidal rule over a wide hump; the exponent by differences that lose no digits at g = 1e8."""
+    p = (1.5 + 3 * u)[:, None]
+    ln_stretch = np.log1p(width[:, None] / (p * top[:, None]) * NODES)
+    l = u[:, None] + p * ln_stretch  # noqa: E741  ln(m/g)
+    r = np.exp(l)
+    g = g[:, None]
+    near = np.abs(l) < 0.35
+    psi = np.where(near, l * l * horner(PSI, np.where(near, l, 0.0)), l * r - np.expm1(l))
+    one_over_m = 1 / (g * r)
+    stirling = one_over_m * horner(STIRLING, one_over_m**2)
+    exponent = -g * psi - y[:, None] * one_over_m - 1.5 * l - stirling + (p - 1) * ln_stretch
+    highest = exponent.max(axis=1)
+    total = np.exp(np.maximum(exponent - highest[:, None], -60.0)).sum(axis=1)
+    return highest + np.log(total * (NODES[1] - NODES[0])) + np.log(width) - 1.5 * np.log(g[:, 0]) - 0.5 * log(2 * pi)

@@ -1,0 +1,85 @@
+"""He and Torrance's wave-optical lobe of a rough surface, with the mirror reflection that the roughness leaves.
+
+    f = F(θd) (S_i/cos θi) (S_r/cos θr) (|i + r|²/v_z)² D/π,   v_z = cos θi + cos θr
+    D = (π² tau²/4λ²) Σ_m g^m e^-g/(m! m) exp(-x/4m),   x = (2π tau/λ)² |i_xy + r_xy|²
+    g = (2π σ v_z/λ)²,   σ² = sigma²/(1 + W(K²/8π)),   K = Σ tan θ erfc(ν),   ν = tau cot θ/(2 sigma)
+    S = h/(h + e^-ν²/(2√π ν)),   h = erfc(-ν)/2,   mirror reflectance = F(θi) e^-g S²
+
+Diffraction, shadowing, effective roughness at grazing: a rough lobe out of which a mirror grows toward grazing.
+Single scattering: it loses energy on steep slopes, and beyond 80°. Far above the wavelength (g > 20) only
+sigma/tau matters. sigma/tau = slope; the rms slope along a line is √2 slope, Beckmann's alpha is 2 slope.
+
+Source: He, Torrance, Sillion and Greenberg 1991; unpolarised, isotropic, exponential of the first term of Λ restored
+(the authors' errata), S by Smith's identity, G with unit vectors and x with wave vectors (decided by their limits).
+"""
+
+from math import pi, sqrt
+
+import numpy as np
+
+from .. import optics
+from ..geometry import Geometry, in_plane
+from ..special import erfcx, lambert_w
+from ._base import Derived, Extreme, Model, Parameter, Pin
+from ._series import ln_series
+
+
+def brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
+    """Lobe [1/sr], without the mirror part, in the shape of `geom` and its wavelength."""
+    factor, ln_s = _parts(geom, sigma, slope, n, k, scale)
+    return factor * np.exp(ln_s)
+
+
+def ln_brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
+    """ln of the lobe, also where the lobe itself underflows."""
+    factor, ln_s = _parts(geom, sigma, slope, n, k, scale)
+    return np.log(factor) + ln_s
+
+
+def mirror(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
+    """Reflectance left to the mirror direction at θi, dimensionless."""
+    shadow, spread = shadowing(geom.cos_i, geom.sin_i, slope)
+    g = (4 * pi * sigma / geom.wavelength) ** 2 * (geom.cos_i * shadow_free(2 * spread)) ** 2
+    return scale * optics.fresnel(geom.cos_i, n, k) * np.exp(-g) * (shadow * geom.cos_i) ** 2
+
+
+def _parts(geom, sigma, slope, n, k, scale):
+    shadow_i, spread_i = shadowing(geom.cos_i, geom.sin_i, slope)
+    shadow_r, spread_r = shadowing(geom.cos_r, geom.sin_r, slope)
+    tau = sigma / slope
+    g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * shadow_free(spread_i + spread_r)) ** 2
+    y = (pi * tau / geom.wavelength) ** 2 * geom.vxy2
+    factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * optics.fresnel(geom.cos_d, n, k)
+    return factor * shadow_i * shadow_r * (geom.v2 / geom.v_z) ** 2, ln_series(g, y)
+
+
+def shadowing(cos, sin, slope):
+    """S/cos θ, finite at grazing, and K = tan θ erfc(ν). Beyond ν = 26 they are 1/cos θ and 0 to every digit."""
+    steep = np.maximum(2 * slope * sin, cos / 26)
+    nu = cos / steep
+    bell = np.exp(-nu * nu)
+    erfc = bell * erfcx(nu)
+    visible = sqrt(pi) * (2 - erfc)
+    return visible / (steep * (nu * visible + bell)), sin / cos * erfc
+
+
+def shadow_free(spread):
+    """Effective over true roughness: what the shadows leave, from K at both angles."""
+    return 1 / np.sqrt(1 + lambert_w(spread * spread / (8 * pi)))
+
+
+MODEL = Model(
+    __name__,
+    brdf,
+    parameters=(
+        Parameter("sigma", 0.3, 1e-3, 50.0, "um", log=True, meaning="rms height", starts=(0.05, 0.2, 0.8)),
+        Parameter("slope", 0.1, 1e-3, 1.0, log=True, meaning="sigma/tau; half of Beckmann's alpha", starts=(0.02, 0.05, 0.1, 0.2)),
+        Parameter("n", 1.5, 0.05, 20.0, log=True, per_channel=True, meaning="refractive index", starts=(1.5,)),
+        Parameter("k", 0.0, 0.0, 1e3, per_channel=True, free=False, meaning="extinction coefficient"),
+        Parameter("scale", 1.0, 0.0, 1e3, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
+    ),
+    mirror=mirror,
+    derived=(Derived("tau", lambda sigma, slope, **_: sigma / slope, "um", "correlation length"),),
+    summary="wave optics, shadowing and an emerging mirror; slightly rough to rough metals and dielectrics, any gloss",
+    source="He, Torrance, Sillion and Greenberg 1991",
+)
