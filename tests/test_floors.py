@@ -8,7 +8,7 @@ from .conftest import ROOT
 
 PACKAGE = ROOT / "brdfguide"
 FLOORS = (
-    {"errors", "catalog", "geometry", "yaml_schema", "material", "substances", "roughness", "albedo"},
+    {"errors", "catalog", "special", "geometry", "yaml_schema", "material", "substances", "roughness", "albedo"},
     {"optics", "hemisphere", "gloss", "measurement", "conventions", "sampling", "display", "draws"},
     {"models", "formats", "guidelines"},
     {"examine", "predict", "levenberg", "fitting", "ranking", "recommend", "scene", "pixels", "quadrature", "parts", "costs", "screens", "pruning"},

@@ -74,12 +74,23 @@ MODEL = Model(
     parameters=(
         Parameter("sigma", 0.3, 1e-3, 50.0, "um", log=True, meaning="rms height", starts=(0.05, 0.2, 0.8)),
         Parameter("slope", 0.1, 1e-3, 1.0, log=True, meaning="sigma/tau; half of Beckmann's alpha", starts=(0.02, 0.05, 0.1, 0.2)),
-        Parameter("n", 1.5, 0.05, 20.0, log=True, per_channel=True, meaning="refractive index", starts=(1.5,)),
-        Parameter("k", 0.0, 0.0, 1e3, per_channel=True, free=False, meaning="extinction coefficient"),
-        Parameter("scale", 1.0, 0.0, 1e3, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
+        Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, per_channel=True, meaning="refractive index", starts=(1.5, 4.0, 20.0)),
+        Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
+        Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
     ),
     mirror=mirror,
     derived=(Derived("tau", lambda sigma, slope, **_: sigma / slope, "um", "correlation length"),),
+    pins=(
+        Pin(in_plane(45, 50), {"sigma": 0.28, "slope": 0.16, "n": 1.7}, f=0.147046332277233921, source="the formulas above at 50 digits"),
+        Pin(in_plane(60, 62, 0.45), {"sigma": 0.05, "slope": 0.05}, f=0.472430857758406432, source="the same, smooth"),
+        Pin(in_plane(30, 30), {"sigma": 5.0, "slope": 0.2}, f=0.0275383602920046262, source="the same, g = 9788"),
+    ),
+    extremes=(
+        Extreme("0.01° from grazing", in_plane(89.99, 89.99), {"sigma": 1.0}, f=2.83460397240751784e-9),
+        Extreme("both at the normal", in_plane(0, 0), {}, f=0.0813483828042643974),
+        Extreme("steepest and roughest", in_plane(89.99, -89.99), {"sigma": 50.0, "slope": 1.0}),
+        Extreme("far off the narrowest lobe", in_plane(10, -80), {"sigma": 0.001, "slope": 0.001}),
+    ),
     summary="wave optics, shadowing and an emerging mirror; slightly rough to rough metals and dielectrics, any gloss",
     source="He, Torrance, Sillion and Greenberg 1991",
 )
