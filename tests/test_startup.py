@@ -1,0 +1,31 @@
+"""What each command may load. Seconds and instructions depend on the machine; the list of loaded modules does not."""
+
+import subprocess
+import sys
+
+import pytest
+
+from .conftest import ROOT
+
+HEAVY = ("numpy", "scipy", "yaml", "matplotlib")
+# command line -> modules that it must not load; one row for each command
+MAY_NOT_LOAD = {
+    "--help": HEAVY,
+}
+RUN = """
+import sys
+from brdfguide.__main__ import main
+try:
+    status = main()
+except SystemExit as end:
+    status = end.code
+print("LOADED", status or 0, *sys.modules)
+"""
+
+
+@pytest.mark.parametrize("line", MAY_NOT_LOAD)
+def test_loads_only_what_it_uses(line):
+    run = subprocess.run([sys.executable, "-c", RUN, *line.split()], cwd=ROOT, capture_output=True, text=True)
+    status, *loaded = run.stdout.rpartition("LOADED ")[2].split()
+    assert status == "0", run.stderr
+    assert not set(loaded) & set(MAY_NOT_LOAD[line])
