@@ -34,10 +34,10 @@ class Normal:
     def covariance(self) -> tuple[np.ndarray, np.ndarray]:
         """(JᵀJ)⁻¹ of the shared (p, p) and of each channel's own (channels, q, q) parameters.
 
-        Singular directions get infinite variance rather than an arbitrary one.
+        A direction that the residuals do not depend on gets an enormous variance, never an arbitrary one.
         """
-        inverse_own = _inverse(self.own)
-        shared = _inverse(self.shared - np.einsum("cpq,cqr,csr->ps", self.between, inverse_own, self.between))
+        inverse_own = _variances(self.own)
+        shared = _variances(self.shared - np.einsum("cpq,cqr,csr->ps", self.between, inverse_own, self.between))
         lever = inverse_own @ np.swapaxes(self.between, 1, 2)
         return shared, inverse_own + lever @ shared @ np.swapaxes(lever, 1, 2)
 
@@ -178,6 +178,17 @@ def _inverse(matrix):
     except np.linalg.LinAlgError:
         inverse = np.linalg.pinv(matrix * outer, hermitian=True)
     return inverse * outer
+
+
+def _variances(matrix):
+    """Inverse for a covariance: eigenvalues below rounding count as 1e-16 of the scaled matrix."""
+    if matrix.shape[-1] == 0:
+        return matrix
+    diagonal = np.einsum("...ii->...i", matrix)
+    scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1e-300))
+    outer = scale[..., :, None] * scale[..., None, :]
+    values, vectors = np.linalg.eigh(matrix * outer)
+    return np.einsum("...ij,...j,...kj->...ik", vectors, 1 / np.maximum(values, 1e-16), vectors) * outer
 
 
 def _largest(step, at) -> float:

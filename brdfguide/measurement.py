@@ -72,5 +72,13 @@ class Measurement:
         pick = lambda values: None if values is None else values[rows]  # noqa: E731
         return replace(self, geom=self.geom[rows], brdf=self.brdf[rows], stderr=pick(self.stderr), weights=pick(self.weights))
 
+    def of_channels(self, picked) -> "Measurement":
+        """The same for some of the channels, by their numbers."""
+        wavelength = np.atleast_1d(self.geom.wavelength)
+        geom = self.geom.at(wavelength[picked] if len(wavelength) > 1 else wavelength)
+        stderr = None if self.stderr is None else self.stderr[:, picked]
+        channels = tuple(self.channels[place] for place in picked)
+        return replace(self, geom=geom, brdf=self.brdf[:, picked], channels=channels, stderr=stderr)
+
     def noting(self, *findings: Finding) -> "Measurement":
         return replace(self, findings=self.findings + findings)

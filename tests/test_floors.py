@@ -7,13 +7,66 @@ import pytest
 from .conftest import ROOT
 
 PACKAGE = ROOT / "brdfguide"
-FLOORS = (
-    {"errors", "catalog", "special", "geometry", "yaml_schema", "material", "substances", "roughness", "albedo"},
-    {"optics", "hemisphere", "gloss", "measurement", "conventions", "sampling", "display", "draws"},
-    {"models", "formats", "guidelines"},
-    {"examine", "predict", "levenberg", "fitting", "ranking", "recommend", "scene", "pixels", "quadrature", "parts", "costs", "screens", "pruning"},
-    {"report", "exporters", "check", "bench"},
-    {"cli", "__main__"},
+FLOORS = tuple(
+    set(floor.split())
+    for floor in (
+        """
+        albedo
+        catalog
+        errors
+        geometry
+        material
+        roughness
+        special
+        substances
+        yaml_schema
+        """,
+        """
+        conventions
+        display
+        draws
+        gloss
+        hemisphere
+        measurement
+        optics
+        sampling
+        """,
+        """
+        formats
+        guidelines
+        models
+        """,
+        """
+        costs
+        examine
+        fitting
+        levenberg
+        misfit
+        parts
+        pixels
+        predict
+        pruning
+        quadrature
+        ranking
+        recommend
+        saved
+        scene
+        screens
+        starts
+        uncertainty
+        validation
+        """,
+        """
+        bench
+        check
+        exporters
+        report
+        """,
+        """
+        __main__
+        cli
+        """,
+    )
 )
 FOLDERS = ("models", "formats", "guidelines", "exporters")
 

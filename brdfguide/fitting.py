@@ -1,0 +1,183 @@
+"""One model, one measurement, one fit; `fit_all` maps it over the candidates. Never compares models."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+
+import numpy as np
+
+from . import levenberg, starts, uncertainty
+from .errors import InputError, choices
+from .measurement import Finding, Measurement
+from .misfit import SMALLEST, Layout, Metric, Misfit, evaluate, metric
+from .models import Sum
+
+SEARCH_SAMPLES = 1200  # directions on which the starts are followed
+POLISH_SAMPLES = 24_000  # directions on which the answer is settled; a larger table is thinned, its error is not
+ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
+
+
+@dataclass(frozen=True)
+class Options:
+    """What a user may decide about a fit."""
+
+    metric: str = "ln"
+    weights: str = "auto"  # auto, none, stderr, sampling
+    robust: bool = False
+    shape_per_channel: bool = False
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    start: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A model with the values that bring it closest to a measurement, and the doubts about them."""
+
+    model: Sum
+    values: dict  # every parameter: a float, or (channels,) for those that each channel has
+    stderr: dict  # of those that were free; infinite where the data say nothing
+    residuals: np.ndarray  # ln(model/data), (samples, channels), NaN where nothing was measured
+    rms_ln: float
+    free: int  # how many numbers were fitted
+    evaluations: int
+    seconds: float
+    converged: bool
+    warnings: tuple[Finding, ...] = ()
+
+    @property
+    def name(self) -> str:
+        return label(self.model)
+
+    def has(self, code: str) -> bool:
+        return any(warning.code == code for warning in self.warnings)
+
+
+def label(model: Sum) -> str:
+    """The name a candidate is shown under: `ggx (metal)` where k is what is fitted."""
+    return model.name + (" (metal)" if any(key.endswith(".k") for key in model.free) else "")
+
+
+def fit(model: Sum, measurement: Measurement, options: Options = Options()) -> Fit:
+    """The values of `model` closest to `measurement`, from the best two starts of a grid and from the user's own.
+
+    Raises InputError where a fixed or start value names no parameter, and where nothing can be fitted.
+    """
+    began = perf_counter()
+    scale = metric(options.metric)
+    model = _with_options(model, options)
+    seen = np.any(measurement.usable, axis=1)
+    if not np.any(seen):
+        raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
+    used = measurement if np.all(seen) else measurement[seen]
+    layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
+    weights = sample_weights(used, options.weights)
+
+    search = starts.spread_rows(used, SEARCH_SAMPLES)
+    found, evaluations = [], 0
+    for start in starts.grid_starts(layout, used):
+        found.append(_descend(layout, used[search], scale, weights[search], layout.encode(start), 1e-6))
+        evaluations += found[-1].evaluations
+    found.sort(key=lambda minimum: minimum.cost)
+    settle = starts.spread_rows(used, POLISH_SAMPLES)
+    for _ in range(ROBUST_ROUNDS if options.robust else 1):
+        best = _descend(layout, used[settle], scale, weights[settle], (found[0].shared, found[0].own), 1e-10)
+        evaluations += best.evaluations
+        found[0] = best
+        if options.robust:
+            weights = _robust(weights, Misfit(layout, used, scale, weights)(best.shared, best.own, False), used)
+    values = layout.decode(best.shared, best.own)
+
+    residuals = ln_residuals(model, measurement, values)
+    part = residuals[seen][settle]
+    orders = uncertainty.orderings(used[settle])
+    correlation, score = uncertainty.serial_correlation(part, orders)
+    stderr = uncertainty.standard_errors(layout, values, best.normal, best.cost, part, correlation)
+    warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
+    warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found, search)) if warning]
+    if not best.converged:
+        warnings.append(Finding("not-converged", "the search was still moving when it was stopped", "warning", "do not use the values"))
+    return Fit(
+        model, values, stderr, residuals, float(np.sqrt(np.nanmean(residuals**2))), layout.count,
+        evaluations, perf_counter() - began, best.converged, tuple(warnings),
+    )  # fmt: skip
+
+
+def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = Options(), progress: Callable[[str], None] = lambda name: None) -> tuple[Fit, ...]:
+    """One fit for each model; `progress` hears each name before its fit begins."""
+    fits = []
+    for model in models:
+        progress(label(model))
+        fits.append(fit(model, measurement, options))
+    return tuple(fits)
+
+
+def ln_residuals(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
+    """ln(model/data), (samples, channels), NaN where nothing was measured."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = np.maximum(evaluate(model, measurement.geom, values), SMALLEST) / np.where(measurement.usable, measurement.brdf, np.nan)
+        return np.log(ratio)
+
+
+def sample_weights(measurement: Measurement, kind: str = "auto") -> np.ndarray:
+    """Weights (samples, channels) with mean 1: from standard errors, from what each direction stands for, or all alike.
+
+    `auto` takes the standard errors where the data bring them, else the sampling weights of a table, else 1.
+    """
+    if kind not in ("auto", "none", "stderr", "sampling"):
+        raise choices("weighting", kind, ("auto", "none", "stderr", "sampling"))
+    weights = np.ones_like(measurement.brdf)
+    if kind == "stderr" and measurement.stderr is None:
+        raise InputError(f"{measurement.name}: the data bring no standard errors to weigh by")
+    if kind in ("auto", "stderr") and measurement.stderr is not None:
+        relative = np.where(measurement.usable, measurement.stderr / np.where(measurement.usable, measurement.brdf, 1.0), np.nan)
+        floor = 0.1 * np.nanmedian(relative)  # one lucky sample must not decide
+        weights = np.where(np.isfinite(relative), 1 / np.maximum(relative, max(floor, 1e-12)) ** 2, 0.0)
+    elif kind == "sampling" or (kind == "auto" and measurement.weights is not None):
+        weights = weights * (measurement.weights if measurement.weights is not None else incidence_weights(measurement))
+    return weights / np.mean(weights[measurement.usable])
+
+
+def incidence_weights(measurement: Measurement) -> np.ndarray:
+    """(samples, 1): every incidence angle counts the same, however densely it was scanned."""
+    weights = np.empty((len(measurement.brdf), 1))
+    for rows in measurement.theta_i_groups.values():
+        weights[rows] = 1 / len(rows)
+    return weights
+
+
+def _with_options(model: Sum, options: Options) -> Sum:
+    """The sum with the user's fixed and start values; a value without a term's name means every term that has it."""
+    given = {}
+    for kind, wanted in (("fixed", options.fixed), ("start", options.start)):
+        given[kind] = {}
+        for name, value in wanted.items():
+            given[kind].update({key: value for key in model.parameters if name in (key, key.rpartition(".")[2])})
+    free = tuple(key for key in model.free if key not in given["fixed"])
+    return replace(model, fixed={**model.fixed, **given["fixed"]}, start={**model.start, **given["start"]}, free=free)
+
+
+def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float) -> levenberg.Minimum:
+    low, high = layout.bounds(layout.shared)
+    own_low, own_high = layout.bounds(layout.own)
+    misfit = Misfit(layout, measurement, scale, weights)
+    return levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=tolerance)
+
+
+def _robust(weights, residuals, measurement: Measurement):
+    """Cauchy's weights: a sample many times farther off than the median counts little."""
+    size = np.abs(residuals[measurement.usable])
+    spread = 1.4826 * np.median(size)
+    return weights / (1 + (residuals / max(ROBUST_WIDTH * spread, 1e-12)) ** 2)
+
+
+def _disagreement(layout: Layout, found, search) -> Finding | None:
+    """Two starts that ended equally well in different places."""
+    if len(found) < 2:
+        return None
+    best, other = found[0], found[1]
+    error, worse = (np.sqrt(each.cost / max(len(search) * layout.channels, 1)) for each in (best, other))
+    apart = np.max(np.abs(best.shared - other.shared), initial=0.0)
+    if apart < 0.1 or worse > 1.05 * error + 1e-6:
+        return None
+    places = [", ".join(f"{key} {layout.decode(m.shared, m.own)[key]:.3g}" for key in layout.shared) for m in (best, other)]
+    return Finding("starts-disagree", f"two starts ended equally well in different places: {places[0]}; or {places[1]}", "warning", "look at both")

@@ -1,0 +1,210 @@
+"""What a fit makes small: the distance between a model and a measurement, and its derivatives.
+
+Parameters live in two blocks, those that all channels share and those that each channel has for itself,
+and in coordinates in which a fit walks well: the logarithm for widths, the value itself for amplitudes.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .errors import choices
+from .geometry import Geometry
+from .measurement import Measurement
+from .models import Sum
+from .models._base import Parameter
+
+SMALLEST = 1e-300  # where a law underflows its logarithm is taken here: far off, but finite
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A scale on which reflectances are compared: residual = scale(model) - scale(data)."""
+
+    name: str
+    scale: Callable[[np.ndarray], np.ndarray]
+    slope: Callable[[np.ndarray], np.ndarray]  # d scale / d f
+    emphasis: str
+    relative: bool = False  # divide by the data: the scale then sees model/data
+    cosine: bool = False  # weigh by the light that arrives and leaves
+
+
+METRICS = {
+    metric.name: metric
+    for metric in (
+        Metric("ln", np.log, np.reciprocal, "every ratio alike, the dark flanks as much as the peak (Weber's law)"),
+        Metric("cube-root", np.cbrt, lambda f: np.cbrt(f) / (3 * f), "lightness: the bright parts more than the flanks"),
+        Metric("relative", lambda f: f, np.ones_like, "too much is worse than too little", relative=True),
+        Metric("cosine", lambda f: f, np.ones_like, "energy: the peak near normal incidence, hardly anything at grazing", cosine=True),
+    )
+}
+
+
+def metric(name: str) -> Metric:
+    """Raises InputError for a scale that is not one of METRICS."""
+    if name not in METRICS:
+        raise choices("metric", name, METRICS)
+    return METRICS[name]
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Which parameters of a sum are searched for, and where in the two blocks each stands."""
+
+    model: Sum
+    channels: int
+    shape_per_channel: bool = False
+
+    @cached_property
+    def parameters(self) -> dict[str, Parameter]:
+        """Those that are free, in the order of the sum."""
+        freed = set(self.model.free)
+        return {
+            key: p for key, p in self.model.parameters.items() if key not in self.model.fixed and (p.free or key in freed)
+        }  # fmt: skip
+
+    @cached_property
+    def shared(self) -> tuple[str, ...]:
+        return tuple(key for key, p in self.parameters.items() if not (p.per_channel or self.shape_per_channel))
+
+    @cached_property
+    def own(self) -> tuple[str, ...]:
+        return tuple(key for key, p in self.parameters.items() if p.per_channel or self.shape_per_channel)
+
+    @property
+    def count(self) -> int:
+        """Free numbers in all."""
+        return len(self.shared) + self.channels * len(self.own)
+
+    def bounds(self, keys) -> tuple[np.ndarray, np.ndarray]:
+        ends = [(to_coordinate(self.parameters[key], self.parameters[key].low), to_coordinate(self.parameters[key], self.parameters[key].high)) for key in keys]
+        return np.array([low for low, _ in ends]), np.array([high for _, high in ends])
+
+    def encode(self, values: Mapping) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates (p,) and (channels, q) of `values`; what is not given keeps its default."""
+        values = {**self.model.defaults(), **values}
+        shared = np.array([float(np.mean(to_coordinate(self.parameters[key], np.asarray(values[key], float)))) for key in self.shared])
+        own = np.empty((self.channels, len(self.own)))
+        for place, key in enumerate(self.own):
+            own[:, place] = to_coordinate(self.parameters[key], np.asarray(values[key], float))
+        return shared, own
+
+    def decode(self, shared, own) -> dict:
+        """Values of every parameter of the sum: floats, or arrays (channels,) for those that each channel has."""
+        values = self.model.defaults()
+        values.update({key: float(from_coordinate(self.parameters[key], shared[place])) for place, key in enumerate(self.shared)})
+        values.update({key: from_coordinate(self.parameters[key], own[:, place]) for place, key in enumerate(self.own)})
+        return values
+
+
+def to_coordinate(parameter: Parameter, value):
+    return np.log(np.maximum(np.asarray(value) - parameter.origin, 1e-300)) if parameter.log else value
+
+
+def from_coordinate(parameter: Parameter, coordinate):
+    if not parameter.log:
+        return coordinate
+    return np.clip(parameter.origin + np.exp(coordinate), parameter.low, parameter.high)
+
+
+def slope_of_coordinate(parameter: Parameter, value):
+    """dp/du."""
+    return value - parameter.origin if parameter.log else np.ones_like(value)
+
+
+@dataclass(frozen=True, eq=False)
+class Misfit:
+    """Weighted residuals of a sum against a measurement, as `levenberg.minimise` wants them."""
+
+    layout: Layout
+    measurement: Measurement
+    metric: Metric
+    weights: np.ndarray  # (samples, channels), 0 where the value is missing; residuals are multiplied by their roots
+
+    @cached_property
+    def _root_weights(self):
+        weights = np.where(self.measurement.usable, self.weights, 0.0)
+        geom = self.measurement.geom
+        return np.sqrt(weights) * (geom.cos_i * geom.cos_r if self.metric.cosine else 1.0)
+
+    @cached_property
+    def _data(self):
+        """The measurement with a harmless 1 where there is none."""
+        return np.where(self.measurement.usable, self.measurement.brdf, 1.0)
+
+    @cached_property
+    def _scaled_data(self):
+        return 1.0 if self.metric.relative else self.metric.scale(self._data)
+
+    def __call__(self, shared, own, want_jacobian: bool):
+        values = self.layout.decode(shared, own)
+        if not want_jacobian:
+            return self._residual(evaluate(self.layout.model, self.measurement.geom, values))
+        f, slopes = with_slopes(self.layout, self.measurement.geom, values)
+        residual = self._residual(f)
+        factor = self._root_weights * (1 / self._data if self.metric.relative else self.metric.slope(np.maximum(f, SMALLEST)))
+        return residual, self._stack(self.layout.shared, slopes, factor), self._stack(self.layout.own, slopes, factor)
+
+    def _residual(self, f):
+        f = np.maximum(f, SMALLEST)
+        scaled = f / self._data if self.metric.relative else self.metric.scale(f)
+        return self._root_weights * (scaled - self._scaled_data)
+
+    def _stack(self, keys, slopes, factor):
+        """(channels, samples, len(keys)) of d residual / d coordinate."""
+        samples, channels = factor.shape
+        stacked = np.empty((channels, samples, len(keys)))
+        for place, key in enumerate(keys):
+            stacked[:, :, place] = (slopes[key] * factor).T
+        return stacked
+
+
+def evaluate(model: Sum, geom: Geometry, values: Mapping) -> np.ndarray:
+    """The sum at every direction (samples, channels), in blocks that fit the cache."""
+    channels = max((np.size(value) for value in values.values()), default=1)
+    channels = max(channels, np.size(geom.wavelength))
+    if len(geom) <= 32768:
+        return np.broadcast_to(model(geom, values), (len(geom), channels))
+    out = np.empty((len(geom), channels))
+    for rows, block in geom.blocks():
+        out[rows] = model(block, values)
+    return out
+
+
+def with_slopes(layout: Layout, geom: Geometry, values: Mapping) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The sum and its derivative with respect to each free coordinate, amplitudes taken out of the laws.
+
+    A law without an analytic gradient is differenced centrally in the coordinate of its parameter.
+    """
+    total, slopes = 0.0, {}
+    for term in layout.model.terms:
+        own = layout.model.of_term(term, values)
+        amplitude = term.model.amplitude
+        height = np.asarray(own.get(amplitude, 1.0))
+        unit = {**own, **({amplitude: 1.0} if amplitude else {})}
+        shape = term.model(geom, **unit)
+        total = total + height * shape
+        free = {key.removeprefix(term.label + "."): key for key in layout.parameters if key.startswith(term.label + ".")}
+        if amplitude in free:
+            slopes[free[amplitude]] = shape
+        wanted = [name for name in free if name != amplitude]
+        known = term.model.gradient(geom, wanted, **unit) if term.model.gradient and wanted else {}
+        for name in wanted:
+            parameter = term.model.parameter(name)
+            if name in known:
+                slope = known[name] * slope_of_coordinate(parameter, np.asarray(own[name]))
+            else:
+                slope = _difference(term.model, geom, unit, parameter)
+            slopes[free[name]] = height * slope
+    return total, slopes
+
+
+def _difference(model, geom: Geometry, values: dict, parameter: Parameter, step: float = 1e-5):
+    """Central difference in the coordinate, one-sided at a bound."""
+    at = to_coordinate(parameter, np.asarray(values[parameter.name], float))
+    low, high = to_coordinate(parameter, parameter.low), to_coordinate(parameter, parameter.high)
+    above, below = np.minimum(at + step, high), np.maximum(at - step, low)
+    ends = [model(geom, **{**values, parameter.name: from_coordinate(parameter, end)}) for end in (above, below)]
+    return (ends[0] - ends[1]) / (above - below)

@@ -1,0 +1,206 @@
+"""Fits against each other: which difference is real, which models tie, and error against run time. Never fits."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter_ns
+
+import numpy as np
+
+from . import uncertainty
+from .fitting import Fit
+from .measurement import Finding, Measurement
+from .misfit import METRICS, evaluate
+
+REPEATS, TIMED_SAMPLES = 7, 4096
+REAL = 2.0  # standard errors from which a difference counts
+SEGMENTS = 8  # of each incidence angle: neighbours in one segment err together
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One candidate in its place."""
+
+    fit: Fit
+    rank: int
+    tied: bool  # with the best
+    rms_ln: float
+    rms_ln_by_theta_i: dict[float, float]
+    errors: dict[str, float]  # by metric
+    behind: float  # rms ln behind the best
+    behind_se: float
+    ns_per_sample: float
+    on_front: bool  # no other is better in both error and time
+    held_out: object = None  # validation.HeldOut
+    growth: dict | None = None
+    warnings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Ranking:
+    """Candidates, best first, and the one to use."""
+
+    rows: tuple[Row, ...]
+    recommended: Row
+    because: str
+    metric: str
+    noise: float  # relative standard deviation of a single value, estimated from neighbours
+    winners: dict[str, str]  # by metric
+    warnings: tuple[Finding, ...] = ()
+
+
+def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> Ranking:
+    """Fits in order of error; ties are broken by fewest parameters, then by run time.
+
+    The difference from the best is taken pointwise, and its standard error over segments of neighbouring
+    directions. Two models whose predictions differ by less than the noise of a single value also tie.
+    """
+    errors = [all_errors(fit, measurement) for fit in fits]
+    order = sorted(range(len(fits)), key=lambda place: (not np.isfinite(errors[place][metric]), errors[place][metric]))
+    best = fits[order[0]]
+    noise = noise_of(best.residuals, measurement)
+    segments = segments_of(measurement)
+    times = time_all([fit for fit in fits], measurement)
+    rows = []
+    for place, index in enumerate(order):
+        fit = fits[index]
+        behind, error = difference(fit.residuals, best.residuals, segments)
+        apart = float(np.sqrt(np.nanmean((fit.residuals - best.residuals) ** 2)))
+        tied = fit is best or behind < REAL * error or apart < noise
+        front = not any(_dominates(errors[other], times[other], errors[index], times[index], metric) for other in order)
+        rows.append(Row(
+            fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, measurement), errors[index],
+            behind, error, times[index], front, warnings=fit.warnings,
+        ))  # fmt: skip
+    rows = _with_ranks(rows)
+    recommended, because = _recommend(rows, noise)
+    winners = {name: fits[min(range(len(fits)), key=lambda i: (np.isnan(errors[i][name]), errors[i][name]))].name for name in METRICS}
+    return Ranking(tuple(rows), recommended, because, metric, noise, winners, _overall(rows, winners, noise))
+
+
+def all_errors(fit: Fit, measurement: Measurement) -> dict[str, float]:
+    """The rms error on every scale, relative to the data's own rms on it where the scale is not logarithmic."""
+    residuals = fit.residuals
+    data = np.where(np.isfinite(residuals), measurement.brdf, np.nan)
+    ratio = np.exp(np.minimum(residuals, 300.0))
+    cosine = measurement.geom.cos_i * measurement.geom.cos_r
+    root = lambda values: float(np.sqrt(np.nanmean(values**2)))  # noqa: E731
+    return {
+        "ln": root(residuals),
+        "cube-root": root(np.cbrt(data) * (np.cbrt(ratio) - 1)) / root(np.cbrt(data)),
+        "relative": root(ratio - 1),
+        "cosine": root(data * (ratio - 1) * cosine) / root(data * cosine),
+    }
+
+
+def by_theta_i(residuals, measurement: Measurement) -> dict[float, float]:
+    """rms ln at each incidence angle [deg]; in bins of 10° where there are more than twenty."""
+    angles = measurement.geom.theta_i_deg[:, 0]
+    keys = np.round(angles, 1)
+    if len(np.unique(keys)) > 20:
+        keys = np.round(angles / 10) * 10
+    out = {}
+    for key in np.unique(keys):
+        part = residuals[keys == key]
+        if np.any(np.isfinite(part)):
+            out[float(key)] = float(np.sqrt(np.nanmean(part**2)))
+    return out
+
+
+def segments_of(measurement: Measurement) -> np.ndarray:
+    """A number for each row: rows with the same one are neighbours and are not counted as independent."""
+    order = uncertainty.orderings(measurement)[0]
+    angles = np.round(measurement.geom.theta_i_deg[order, 0], 1)
+    starts = np.flatnonzero(np.diff(angles, prepend=-1.0))
+    sizes = np.diff(np.append(starts, len(order)))
+    if len(starts) > 64:  # scattered incidence: the order alone decides
+        starts, sizes = np.array([0]), np.array([len(order)])
+    each = SEGMENTS if len(starts) > 1 else 4 * SEGMENTS
+    segments = np.empty(len(order), int)
+    for group, (start, size) in enumerate(zip(starts, sizes)):
+        segments[order[start : start + size]] = group * each + np.arange(size) * each // size
+    return segments
+
+
+def difference(one, best, segments) -> tuple[float, float]:
+    """How far one rms lies behind the other, with a standard error that lets whole segments of neighbours vary.
+
+    rms_a - rms_b = mean(a² - b²)/(rms_a + rms_b); the standard error of the mean is taken between segments.
+    """
+    squares = one**2 - best**2
+    seen = np.isfinite(squares)
+    total = float(np.sqrt(np.mean(one[seen] ** 2)) + np.sqrt(np.mean(best[seen] ** 2)))
+    if total == 0:
+        return 0.0, 0.0
+    sums = np.bincount(segments, np.where(seen, squares, 0.0).sum(axis=1))
+    counts = np.bincount(segments, seen.sum(axis=1))
+    filled = counts > 0
+    sums, counts = sums[filled], counts[filled]
+    mean = sums.sum() / counts.sum()
+    groups = len(sums)
+    spread = np.sqrt(np.sum((sums - mean * counts) ** 2) * groups / max(groups - 1, 1)) / counts.sum()
+    return float(mean / total), float(spread / total)
+
+
+def noise_of(residuals, measurement: Measurement) -> float:
+    """Relative standard deviation of one value, from differences of neighbours along the scans, which any smooth model leaves in."""
+    order = uncertainty.orderings(measurement)[0]
+    along = residuals[order]
+    steps = along[2:] - 2 * along[1:-1] + along[:-2]
+    steps = steps[np.isfinite(steps)]
+    return float(1.4826 * np.median(np.abs(steps)) / np.sqrt(6)) if steps.size else 0.0
+
+
+def time_all(fits: Sequence[Fit], measurement: Measurement) -> list[float]:
+    """Nanoseconds per sample of one channel with the geometry at hand: least of interleaved repeats, one thread."""
+    geom = measurement.geom[: min(TIMED_SAMPLES, len(measurement.brdf))]
+    geom = geom.at(np.atleast_1d(measurement.geom.wavelength)[:1])
+    values = [{key: value[0] if np.ndim(value) else value for key, value in fit.values.items()} for fit in fits]
+    least = [float("inf")] * len(fits)
+    for _ in range(REPEATS):
+        for place, fit in enumerate(fits):
+            began = perf_counter_ns()
+            evaluate(fit.model, geom, values[place])
+            least[place] = min(least[place], (perf_counter_ns() - began) / len(geom))
+    return least
+
+
+def _dominates(error, time, other_error, other_time, metric: str) -> bool:
+    return error[metric] <= other_error[metric] and time <= other_time and (error[metric] < other_error[metric] or time < other_time)
+
+
+def _with_ranks(rows: list[Row]) -> list[Row]:
+    """Tied rows share rank 1; the others keep their place."""
+    ties = sum(row.tied for row in rows)
+    return [replace(row, rank=1 if row.tied and ties > 1 else place) for place, row in enumerate(rows, start=1)]
+
+
+def _recommend(rows: list[Row], noise: float) -> tuple[Row, str]:
+    """The simplest of the tied, and the reason in words."""
+    trusted = [row for row in rows if row.tied and row.fit.converged] or rows[:1]
+    pick = min(trusted, key=lambda row: (row.fit.free, row.ns_per_sample))
+    best = rows[0]
+    if pick is best:
+        others = [row for row in rows[1:]]
+        if not others:
+            return pick, "the only candidate"
+        tied = [row.fit.name for row in trusted if row is not pick]
+        if tied:
+            return pick, f"least error, and as simple as {', '.join(tied)}, which it cannot be told from"
+        return pick, f"least error; {others[0].fit.name} is {others[0].behind:.2g} ± {others[0].behind_se:.1g} behind in rms ln"
+    reasons = []
+    if pick.fit.free < best.fit.free:
+        reasons.append(f"{best.fit.free - pick.fit.free} fewer parameters")
+    if pick.ns_per_sample < 0.8 * best.ns_per_sample:
+        reasons.append(f"{best.ns_per_sample / pick.ns_per_sample:.1f} times cheaper")
+    return pick, f"cannot be told from {best.fit.name} by these data, with {' and '.join(reasons) or 'no more parameters'}"
+
+
+def _overall(rows: list[Row], winners: dict[str, str], noise: float) -> tuple[Finding, ...]:
+    found = []
+    if len(set(winners.values())) > 1:
+        by_winner = "; ".join(f"{name}: {model} ({METRICS[name].emphasis.split(',')[0].split(':')[0]})" for name, model in winners.items())
+        found.append(Finding("metric-decides", f"the winner depends on the scale: {by_winner}", "warning", "choose the scale that matters to you", "--metric"))
+    if rows and noise > 0 and rows[0].rms_ln > 2 * noise:
+        text = f"even the best error, {rows[0].rms_ln:.2g}, is {rows[0].rms_ln / noise:.0f} times the noise of a single value, {noise:.2g}"
+        found.append(Finding("above-noise", text, "warning", "no candidate describes this surface fully"))
+    return tuple(found)

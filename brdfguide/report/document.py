@@ -1,0 +1,98 @@
+"""Results as one dict, which terminal, JSON, plot and page all read, so that they cannot disagree."""
+
+import numpy as np
+
+from ..fitting import Fit
+from ..measurement import Finding, Measurement
+from ..ranking import Ranking, Row
+
+
+def fit_document(ranking: Ranking, measurement: Measurement, *, timing: bool = True) -> dict:
+    """`brdfguide fit --json` (CLI contract)."""
+    return {
+        "schema": "brdfguide/fit/1",
+        "data": data_block(measurement),
+        "metric": ranking.metric,
+        "noise_rms_ln": _round(ranking.noise),
+        "ranking": [_row(row, measurement, timing) for row in ranking.rows],
+        "recommended": ranking.recommended.fit.name,
+        "because": ranking.because,
+        "winners": ranking.winners,
+        "warnings": [finding(each) for each in ranking.warnings],
+        "left_out": [],
+    }
+
+
+def data_block(measurement: Measurement) -> dict:
+    """What the file was taken to be."""
+    theta_i = measurement.geom.theta_i_deg
+    return {
+        "file": measurement.name,
+        "format": measurement.format,
+        "samples": len(measurement.brdf),
+        "channels": list(measurement.channels),
+        "wavelength_nm": np.round(np.atleast_1d(measurement.geom.wavelength) * 1e3, 6).tolist(),
+        "theta_i_deg": [float(theta_i.min()), float(theta_i.max())],
+        "theta_r_deg": [float(measurement.geom.theta_r_deg.min()), float(measurement.geom.theta_r_deg.max())],
+        "in_plane": measurement.in_plane,
+        "values": int(measurement.brdf.size),
+        "missing": measurement.censored,
+        "solid_angle_sr": measurement.solid_angle,
+        "findings": [finding(each) for each in measurement.findings],
+    }
+
+
+def finding(each: Finding) -> dict:
+    """A doubt with its stable code."""
+    entry = {"code": each.code, "severity": each.severity, "text": each.text, "consequence": each.consequence, "option": each.option}
+    return {key: value for key, value in entry.items() if value} | ({"numbers": dict(each.numbers)} if each.numbers else {})
+
+
+def _row(row: Row, measurement: Measurement, timing: bool) -> dict:
+    fit = row.fit
+    entry = {
+        "rank": row.rank,
+        "tied": row.tied,
+        "model": fit.model.name,
+        "candidate": fit.name,
+        "freed": list(fit.model.free),
+        "rms_ln": row.rms_ln,
+        "rms_ln_by_theta_i": {f"{theta:g}": value for theta, value in row.rms_ln_by_theta_i.items()},
+        "errors": row.errors,
+        "held_out_rms_ln": row.held_out.rms_ln if row.held_out else None,
+        "held_out_highest": {"theta_i_deg": row.held_out.highest_theta_i_deg, "rms_ln": row.held_out.highest_rms_ln} if row.held_out else None,
+        "growth": row.growth,
+        "behind": row.behind,
+        "behind_se": row.behind_se,
+        "parameters": _parameters(fit),
+        "free_parameters": fit.free,
+        "evaluations": fit.evaluations,
+        "converged": fit.converged,
+        "flags": [finding(each) for each in row.warnings],
+    }
+    if timing:
+        entry |= {"time_per_sample_ns": row.ns_per_sample, "fit_time_s": fit.seconds, "on_front": row.on_front}
+    return entry
+
+
+def _parameters(fit: Fit) -> dict:
+    """Every value, fitted or fixed, and what follows from them; at_bound is "low", "high" or null."""
+    out = {}
+    for key, parameter in fit.model.parameters.items():
+        value, stderr = fit.values[key], fit.stderr.get(key)
+        ends = [end for end in ("low", "high") if fit.has(f"at-bound:{key}") and _at(parameter, value, end)]
+        out[key] = {"value": value, "stderr": stderr, "unit": parameter.unit, "at_bound": ends[0] if ends else None, "fitted": stderr is not None}
+    for term in fit.model.terms:
+        own = {**term.model.defaults(), **fit.model.of_term(term, fit.values)}
+        for derived in term.model.derived:
+            out[f"{term.label}.{derived.name}"] = {"value": derived.of(**own), "stderr": None, "unit": derived.unit, "at_bound": None, "derived": True}
+    return out
+
+
+def _at(parameter, value, end: str) -> bool:
+    bound = getattr(parameter, end)
+    return bool(np.any(np.abs(np.asarray(value) - bound) <= 1e-5 * max(abs(bound), 1e-9)))
+
+
+def _round(value: float) -> float:
+    return float(f"{value:.6g}")

@@ -1,0 +1,128 @@
+"""How far a fitted number can be trusted: standard errors, what the data do not determine, and a wrong model's traces."""
+
+from math import erfc, sqrt
+
+import numpy as np
+
+from .levenberg import Normal
+from .measurement import Finding, Measurement
+from .misfit import Layout, slope_of_coordinate
+
+LOOSE = 0.5  # standard error of a logarithm beyond which a parameter counts as not determined: a factor 1.6
+ILL = 1e3  # condition number of the scaled problem beyond which single intervals mislead (ours)
+DISCREPANT = 3.5  # standard deviations of the lag-one correlation, over four orderings: under 1 in 1000 by chance
+
+
+def orderings(measurement: Measurement) -> list[np.ndarray]:
+    """Row orders in which neighbours lie close: along scans, by tilt of the half vector, by half angle, by incidence."""
+    geom = measurement.geom
+    flat = lambda values: np.ravel(np.broadcast_to(values, geom.shape))  # noqa: E731
+    azimuth = np.round(np.abs(np.remainder(flat(geom.phi_deg) + 180, 360) - 180), 1)
+    half_tilt = np.round(np.sqrt(flat(geom.tan2_h)), 3)
+    return [
+        np.lexsort((flat(geom.signed_theta_r_deg), azimuth, np.round(flat(geom.theta_i_deg), 1))),
+        np.lexsort((flat(geom.cos_d), half_tilt)),
+        np.lexsort((flat(geom.tan2_h), np.round(flat(geom.cos_d), 3))),
+        np.lexsort((flat(geom.tan2_h), np.round(flat(geom.theta_r_deg), 1))),
+    ]
+
+
+def serial_correlation(residuals: np.ndarray, orders) -> tuple[float, float]:
+    """Largest lag-one correlation of residuals (samples, channels; NaN missing) over the orders, and its z-score."""
+    worst, score = 0.0, 0.0
+    for order in orders:
+        ahead, behind = residuals[order][1:], residuals[order][:-1]
+        both = np.isfinite(ahead) & np.isfinite(behind)
+        count = np.count_nonzero(both)
+        if count < 8:
+            continue
+        ahead, behind = ahead[both], behind[both]
+        power = 0.5 * (np.mean(ahead**2) + np.mean(behind**2))
+        correlation = float(np.mean(ahead * behind) / power) if power > 0 else 0.0
+        if correlation > worst:
+            # channels that err together count once
+            worst, score = correlation, correlation * sqrt(count / common_channels(residuals))
+    return worst, score
+
+
+def common_channels(residuals: np.ndarray) -> float:
+    """How many channels say the same: 1 for independent residuals, the number of channels for identical ones."""
+    channels = residuals.shape[1]
+    if channels == 1:
+        return 1.0
+    filled = np.where(np.isfinite(residuals), residuals, 0.0)
+    squares = filled.T @ filled
+    scale = np.sqrt(np.maximum(np.diag(squares), 1e-300))
+    correlation2 = (squares / np.outer(scale, scale)) ** 2
+    chance = (channels - 1) / max(len(residuals), 1)  # what independent channels show by chance
+    return float(np.clip(correlation2.sum() / channels - chance, 1.0, channels))
+
+
+def standard_errors(layout: Layout, values: dict, normal: Normal, cost: float, residuals: np.ndarray, correlation: float) -> dict:
+    """Standard error of each free parameter, in its own unit; infinite where the data say nothing.
+
+    s² (JᵀJ)⁻¹ with s² from the residuals, widened where neighbours or channels err together: (1+ρ)/(1-ρ) for a serial
+    correlation ρ, and the number of channels that say the same for what all channels share.
+    """
+    seen = np.count_nonzero(np.isfinite(residuals))
+    serial = (1 + correlation) / (1 - min(correlation, 0.95))
+    variance = cost / max(seen - layout.count, 1) * serial
+    shared, own = normal.covariance()
+    together = common_channels(residuals)
+    errors = {}
+    for place, key in enumerate(layout.shared):
+        slope = slope_of_coordinate(layout.parameters[key], np.asarray(values[key]))
+        errors[key] = float(np.abs(slope) * sqrt(max(variance * together * shared[place, place], 0.0)))
+    for place, key in enumerate(layout.own):
+        slope = slope_of_coordinate(layout.parameters[key], np.asarray(values[key]))
+        errors[key] = np.abs(slope) * np.sqrt(np.maximum(variance * own[:, place, place], 0.0))
+    return errors
+
+
+def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[Finding, ...]:
+    """Parameters at a bound, parameters that the data do not determine, and pairs of which only a combination is."""
+    found = []
+    for key, parameter in layout.parameters.items():
+        value, error = np.atleast_1d(values[key]), np.atleast_1d(errors[key])
+        span = parameter.high - parameter.low
+        for end, bound in (("low", parameter.low), ("high", parameter.high)):
+            at = np.abs(value - bound) <= 1e-6 * (abs(bound) if parameter.log and bound else span)
+            if np.any(at) and not (parameter.linear and end == "low"):
+                found.append(Finding(f"at-bound:{key}", f"{key} ended at its {end} bound {bound:g}", "warning", "its true value may lie beyond"))
+            elif np.all(at):
+                found.append(Finding(f"unused:{key}", f"{key} is 0: the term is not needed", "note", "leave it out"))
+        away = np.abs(value - parameter.origin) if parameter.log else np.maximum(np.abs(value), 1e-3 * span)
+        if np.median(error / np.maximum(away, 1e-300)) > LOOSE and np.any(value > parameter.low):
+            found.append(Finding(f"undetermined:{key}", f"the data do not determine {key}", "warning", "do not use its value by itself"))
+    found += _ridge(layout, normal)
+    return tuple(found)
+
+
+def _ridge(layout: Layout, normal: Normal) -> list[Finding]:
+    """Names the combination along which the misfit hardly changes."""
+    keys = layout.shared + layout.own
+    p = len(layout.shared)
+    full = np.zeros((len(keys), len(keys)))
+    full[:p, :p] = normal.shared
+    full[:p, p:] = normal.between.sum(0)
+    full[p:, :p] = full[:p, p:].T
+    full[p:, p:] = normal.own.sum(0)  # the channels together: one amplitude of each kind
+    scale = np.sqrt(np.maximum(np.diag(full), 1e-300))
+    values, vectors = np.linalg.eigh(full / np.outer(scale, scale))
+    condition = sqrt(values[-1] / values[0]) if values[0] > 0 else float("inf")
+    if condition < ILL or len(keys) < 2:
+        return []
+    weak = [keys[place] for place in np.argsort(-np.abs(vectors[:, 0])) if abs(vectors[place, 0]) > 0.3]
+    text = f"only a combination of {' and '.join(weak)} is determined (condition number {condition:.0f})"
+    return [Finding("ridge", text, "warning", "move them together or fix one", "--fix", (("condition", condition),))]
+
+
+def discrepancy(residuals: np.ndarray, correlation: float, score: float) -> Finding | None:
+    """A model that is wrong leaves neighbouring residuals alike, however narrow its intervals."""
+    if score < DISCREPANT:
+        return None
+    rms = float(np.sqrt(np.nanmean(residuals**2)))
+    part = rms * sqrt(correlation)
+    text = f"the model is systematically off by about {part:.2g} in ln (residuals of neighbours correlate by {correlation:.2f})"
+    numbers = (("systematic_rms_ln", part), ("correlation", correlation), ("z", score), ("chance", 0.5 * erfc(score / sqrt(2))))
+    return Finding("discrepancy", text, "warning", "its intervals say how well this model is placed, not how right it is", "", numbers)
