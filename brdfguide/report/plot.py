@@ -32,7 +32,7 @@ class Line:
 
 def lines_of(ranking) -> list[Line]:
     """Every row of a Ranking, best first."""
-    return [Line(r.fit.model.name, r.fit.model, r.fit.values, r.rms_ln, r.ns_per_sample, r.on_front) for r in ranking.rows]
+    return [Line(r.fit.name, r.fit.model, r.fit.values, r.rms_ln, r.ns_per_sample, r.on_front) for r in ranking.rows]
 
 
 def fit(ranking, measurement: Measurement, path) -> None:
@@ -128,14 +128,15 @@ def _lobes(fig, lines, measurement):
         top, strip = axes[:, place]
         reach = min(89.0, np.abs(theta_r).max() + 1)
         grid = _grid(theta_i, -reach if theta_r.min() < 0 else 0.0, reach)
+        sparse = picked.size < 60  # then points are larger and lie over the lines
         for number, line in enumerate(lines):
             look = dict(color=style.COLOURS[number % 8], zorder=3 - 0.01 * number)
             top.plot(grid, _positive(curve(line, theta_i, grid, wavelength, channel)), ls=style.DASHES[number % 8], **look)
             model = line.model(part.geom.at(np.array([wavelength])), at_channel(line.values, channel))[:, 0]
             residual = np.log(_positive(model) / value)
             left_over.append(residual[np.isfinite(residual)])
-            strip.plot(theta_r, residual, style.MARKERS[number % 8], ms=1.6, mew=0, alpha=0.85, **look)
-        top.plot(theta_r, value, "o", color=style.INK, ms=2.3, mew=0, zorder=2, alpha=0.75)
+            strip.plot(theta_r, residual, style.MARKERS[number % 8], ms=2.6 if sparse else 1.6, mew=0, alpha=0.85, **look)
+        top.plot(theta_r, value, "o", color=style.INK, ms=3.2 if sparse else 2.3, mew=0, zorder=4 if sparse else 2, alpha=0.8)
         strip.axhline(0, color=style.INK, lw=0.6)
         for axis in (top, strip):
             axis.axvline(theta_i, color=style.RULE, lw=0.8, zorder=0)
@@ -174,20 +175,20 @@ def _cost(fig, lines):
     time, error = np.array([line.ns for line in timed]), np.array([line.rms_ln for line in timed])
     front = np.array([line.on_front for line in timed])
     order = np.argsort(time[front])
-    axis.step(np.append(time[front][order], time.max() * 1.6), np.append(error[front][order], error[front].min()), where="post",
-              color=style.COLOURS[0], lw=1, zorder=1, label="Pareto front: none is better in both")  # fmt: skip
+    stairs = np.append(time[front][order], time.max() * 2), np.append(error[front][order], error[front].min())
+    axis.step(*stairs, where="post", color=style.COLOURS[0], lw=1, zorder=1, label="Pareto front: none is better in both")
     axis.plot(time[front], error[front], "o", color=style.COLOURS[0], ms=4.5, zorder=3)
     axis.plot(time[~front], error[~front], "o", mfc=style.PAPER, color=style.INK, ms=4, mew=0.8, zorder=2)
     axis.set_xscale("log")
     axis.set_yscale("log")
-    axis.set_xlim(time.min() / 1.25, time.max() * 4)
-    axis.set_ylim(error.min() / 1.25, error.max() * 1.35)
+    axis.set_xlim(time.min() / 2, time.max() * 4)
+    axis.set_ylim(error.min() / 1.4, error.max() * 1.5)
     _plain_log(axis.yaxis)
     _plain_log(axis.xaxis)
     axis.set_xlabel("time per sample [ns]")
     axis.set_ylabel("error, rms ln")
     axis.legend(loc="upper right")
-    _name_points(fig, axis, timed, time, error)
+    _name_points(fig, axis, timed, time, error, stairs)
 
 
 def _errors_only(axis, lines):
@@ -202,25 +203,29 @@ def _errors_only(axis, lines):
     axis.set_xlabel("error, rms ln (times left out)")
 
 
-def _name_points(fig, axis, lines, time, error):
-    """A name beside each point, where no other name or point stands and inside the frame."""
+def _name_points(fig, axis, lines, time, error, front):
+    """A name beside each point, as near as no other name, point or part of the front (x, y) is, inside the frame."""
     fig.figure.draw_without_rendering()
     scale = fig.figure.dpi / 72
-    at = axis.transData.transform(np.column_stack((time, error))) / scale  # in points
-    frame = axis.get_window_extent().extents / scale
+    in_points = lambda x, y: axis.transData.transform(np.column_stack((x, y))) / scale  # noqa: E731
+    at, frame = in_points(time, error), axis.get_window_extent().extents / scale
     taken = [(x - 3, y - 3, x + 3, y + 3) for x, y in at]
+    stairs = in_points(*front)
+    for (x0, y0), (x1, y1) in zip(stairs, stairs[1:]):
+        taken += [(x0, y0 - 0.5, x1, y0 + 0.5), (x1 - 0.5, min(y0, y1), x1 + 0.5, max(y0, y1))]
     for place in np.argsort(at[:, 1]):
         (x, y), width = at[place], 4.1 * len(lines[place].name)
-        offsets = [(dx, dy) for step in range(1, 12) for dy in (5.5 * step, -5.5 * step) for dx in (3, -3 - width)]
+        offsets = [(dx, dy) for dy in np.arange(-60, 61, 5) for dx in (5, -5 - width, -width / 2, 20, -20 - width) if abs(dy) > 6 or abs(dx) < 6 or dx == -5 - width]
+        offsets.sort(key=lambda by: np.hypot(np.clip(0, by[0], by[0] + width), 1.5 * by[1]))
         for dx, dy in offsets:
             box = (x + dx, y + dy - 4, x + dx + width, y + dy + 4)
             inside = frame[0] < box[0] and box[2] < frame[2] and frame[1] < box[1] and box[3] < frame[3]
             if inside and not any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
                 break
         taken.append(box)
-        leader = dict(arrowstyle="-", lw=0.4, color=style.INK, shrinkA=0, shrinkB=2) if abs(dy) > 8 else None
+        leader = dict(arrowstyle="-", lw=0.4, color=style.INK, shrinkA=0, shrinkB=2) if np.hypot(max(dx, -dx - width, 0), dy) > 11 else None
         axis.annotate(lines[place].name, (time[place], error[place]), (dx, dy), textcoords="offset points", va="center",
-                      fontsize=7, arrowprops=leader, bbox=dict(fc=style.PAPER, ec="none", pad=0.5))  # fmt: skip
+                      fontsize=7, arrowprops=leader, bbox=dict(fc="none", ec="none", pad=0.5))  # fmt: skip
 
 
 def _plain_log(axis):

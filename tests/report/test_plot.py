@@ -23,7 +23,7 @@ def scan(angles=(10.0, 30.0, 45.0, 60.0, 75.0)) -> Measurement:
 
 def row(name, rms_ln, ns, on_front, values=None):
     model = models.get(name)
-    return SimpleNamespace(fit=SimpleNamespace(model=model, values=values or model.defaults()), rms_ln=rms_ln, ns_per_sample=ns, on_front=on_front)
+    return SimpleNamespace(fit=SimpleNamespace(model=model, name=name, values=values or model.defaults()), rms_ln=rms_ln, ns_per_sample=ns, on_front=on_front)
 
 
 def ranking(times=True):
