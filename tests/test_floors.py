@@ -60,6 +60,7 @@ FLOORS = tuple(
         bench
         check
         exporters
+        preview
         report
         """,
         """
