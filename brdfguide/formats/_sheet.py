@@ -44,7 +44,7 @@ def sheet(source: Source, headerless: tuple[str, ...] | None = None) -> Sheet:
         raise source.error(f"no row of numbers found; the first line is '{content[0][1].strip()[:60]}'", content[0][0])
     delimiter, decimal = _style([text for _, text in content[first : first + LOOKED_AT]], content[first - 1][1] if first else None)
     names, notes = _header(source, content[:first], comments, headerless, delimiter, decimal, content[first])
-    values, lines = _numbers(source, content[first:], names, delimiter, decimal, notes)
+    values, lines = rows_of(source, content[first:], names, delimiter, decimal, notes)
     return Sheet(names, values, lines, comments, notes)
 
 
@@ -132,7 +132,8 @@ def _trimmed(cells: list[str]) -> list[str]:
     return [cell.strip() for cell in cells]
 
 
-def _numbers(source, content, names, delimiter, decimal, notes):
+def rows_of(source: Source, content, names, delimiter, decimal, notes):
+    """Values (rows, columns) and the line of each row; `content` are pairs of line number and text."""
     width = len(names)
     lines = np.array([number for number, _ in content])
     texts = [text for _, text in content]

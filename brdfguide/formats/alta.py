@@ -1,0 +1,118 @@
+"""ALTA text: `#KEY value` lines, then rows of coordinates, values and perhaps their intervals.
+
+#DIM gives the numbers of coordinates and of values, #PARAM_IN the coordinates by name (radians), #PARAM_OUT the quantity, #VS the
+extra columns of an interval for each value. The mirror direction is at an azimuth difference of 180 degrees.
+
+Source: ALTA's documentation of its parametrisations (Belcour, Barla and Pacanowski).
+"""
+
+import re
+
+import numpy as np
+
+from .. import conventions
+from ..errors import choices
+from ..geometry import Geometry
+from ..measurement import Finding, Measurement
+from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, measurement, nominal_colours
+
+
+def recognises(head: bytes) -> bool:
+    return re.search(rb"^\s*#\s*PARAM_IN\b", head, re.MULTILINE) is not None
+
+
+def read(source: Source, options: Options) -> Measurement:
+    """Raises InputError for a parametrisation that is not known or does not tell the directions, and for ragged rows."""
+    header, table, lines = _content(source)
+    name = header.get("PARAM_IN", "").upper()
+    if name not in DIRECTIONS:
+        raise choices(f"ALTA parametrisation in {source.name}", name, DIRECTIONS)
+    wanted, directions = DIRECTIONS[name]
+    inputs, outputs = _dimensions(source, header, table.shape[1], wanted)
+    coordinates, values = table[:, :inputs].T, table[:, inputs : inputs + outputs]
+    if not np.all(np.isfinite(coordinates)):
+        raise source.error("a coordinate is not finite", lines[int(np.flatnonzero(~np.all(np.isfinite(coordinates), axis=0))[0])])
+    quantity = header.get("PARAM_OUT", "INV_STERADIAN").upper()
+    if quantity not in QUANTITIES:
+        raise choices(f"ALTA quantity in {source.name}", quantity, QUANTITIES)
+    theta_i, phi_i, theta_r, phi_r = (np.degrees(a) for a in directions(*coordinates))
+    for each, degrees in (("theta_i", theta_i), ("theta_r", theta_r)):
+        check_zenith(source, each, degrees, lines)
+    channels = {3: ("X", "Y", "Z") if quantity == "XYZ_COLOR" else ("R", "G", "B")}.get(outputs, [f"value{k + 1}" for k in range(outputs)])
+    channels = ("brdf",) if outputs == 1 else channels
+    um = np.array([{**RGB_UM, **XYZ_UM}[each] for each in channels]) if outputs == 3 else None
+    notes = [nominal_colours(channels)] if outputs == 3 else []
+    text = f"coordinates {name}, values {quantity}" + (": divided by cos theta_r" if quantity.endswith("COSINE_FACTOR") else "")
+    notes.append(Finding("quantity-stated", text, option="--quantity"))
+    result = measurement(source, "ALTA text", theta_i, phi_i, theta_r, phi_r, values, channels=channels, wavelength=um, findings=notes)
+    return conventions.as_brdf(result, "brdf" if options.quantity else QUANTITIES[quantity])
+
+
+def _content(source: Source):
+    header, content, lines = {}, [], []
+    for number, text in enumerate(source.lines, 1):
+        stripped = text.strip()
+        if match := re.match(r"#\s*([A-Z_]+)\s*(.*)", stripped):
+            header[match[1]] = match[2].strip().strip('"')
+        elif stripped and not stripped.startswith("#"):
+            content.append(stripped)
+            lines.append(number)
+    if not content:
+        raise source.error("no rows below the header")
+    try:
+        table = np.loadtxt(content, ndmin=2, comments=None)
+    except ValueError:
+        width = len(content[0].split())
+        for number, text in zip(lines, content):
+            values = source.numbers(text.split(), number)
+            if len(values) != width:
+                raise source.error(f"found {len(values)} numbers, the rows above have {width}", number) from None
+        raise source.error("its rows are no table of numbers") from None
+    return header, table, lines
+
+
+def _dimensions(source: Source, header, width: int, wanted: int):
+    words = header.get("DIM", "").split()
+    if len(words) != 2 or not all(word.isdigit() for word in words):
+        raise source.error(f"#DIM '{header.get('DIM', '')}': wanted two counts, such as #DIM 3 1")
+    inputs, outputs = int(words[0]), int(words[1])
+    if inputs != wanted:
+        raise source.error(f"#DIM says {inputs} coordinates; {header['PARAM_IN']} has {wanted}")
+    if not 1 <= outputs <= width - inputs:
+        raise source.error(f"#DIM promises {inputs} + {outputs} columns; the rows have {width}")
+    return inputs, outputs
+
+
+def _projected(theta_l, x, y):
+    return theta_l, 0 * x, np.hypot(x, y), np.arctan2(y, x)
+
+
+def _half_difference(theta_h, phi_h, theta_d, phi_d):
+    """Zeniths and azimuths from half vector and difference angles; exchanging light and detector changes nothing."""
+    along, across, up = np.sin(theta_d) * np.cos(phi_d), np.sin(theta_d) * np.sin(phi_d), np.cos(theta_d)
+    found = []
+    for sign in (1, -1):
+        x = np.cos(theta_h) * sign * along + np.sin(theta_h) * up
+        z = np.cos(theta_h) * up - np.sin(theta_h) * sign * along
+        found += [np.arctan2(np.hypot(x, across), z), np.arctan2(sign * across, x) + phi_h]
+    theta = [np.where(each > np.pi / 2, np.nan, each) for each in found[::2]]
+    below = np.isnan(theta[0]) | np.isnan(theta[1])
+    return [np.where(below, np.pi / 2, each) for each in (theta[0],)] + [found[1], np.where(below, np.pi / 2, theta[1]), found[3]]
+
+
+def _cartesian(rx, ry, rz, ix, iy, iz):
+    geom = Geometry.from_vectors(np.stack([ix, iy, iz], -1), np.stack([rx, ry, rz], -1))
+    return [np.radians(a) for a in (geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg)]
+
+
+# name -> how many coordinates, and the function to theta_i, phi_i, theta_r, phi_r [rad]
+DIRECTIONS = {
+    "ISOTROPIC_TL_TV_PROJ_DPHI": (3, _projected),
+    "ISOTROPIC_TV_TL_DPHI": (3, lambda theta_v, theta_l, dphi: (theta_l, 0 * dphi, theta_v, dphi)),
+    "SPHERICAL_TL_PL_TV_PV": (4, lambda theta_l, phi_l, theta_v, phi_v: (theta_l, phi_l, theta_v, phi_v)),
+    "RUSIN_TH_TD_PD": (3, lambda theta_h, theta_d, phi_d: _half_difference(theta_h, 0 * theta_h, theta_d, phi_d)),
+    "RUSIN_TH_PH_TD_PD": (4, _half_difference),
+    "CARTESIAN": (6, _cartesian),
+}
+QUANTITIES = {"INV_STERADIAN": "brdf", "INV_STERADIAN_COSINE_FACTOR": "brdf-cos", "RGB_COLOR": "brdf", "XYZ_COLOR": "brdf"}
+FORMAT = Format("alta", (".dat", ".alta"), recognises, read)
