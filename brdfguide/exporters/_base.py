@@ -34,11 +34,6 @@ class Surface:
     def colour(self) -> _colour.Colour:
         return _colour.to_srgb(self.channels, self.wavelength)
 
-    @cached_property
-    def labels(self) -> dict:
-        """Label of each term -> its model."""
-        return {term.label: term.model for term in self.model.terms}
-
     @property
     def laws(self) -> list[str]:
         """Names of the terms, sorted: what an exporter looks at to see what it can express."""
@@ -48,6 +43,16 @@ class Surface:
         """All parameters of one term, under bare names."""
         term = next(t for t in self.model.terms if t.label == label)
         return {**term.model.defaults(), **self.model.of_term(term, {**self.model.start, **self.model.fixed, **self.values})}
+
+    def linear(self, value) -> np.ndarray:
+        """A parameter that the BRDF is linear in, in linear sRGB; outside the gamut it stops at 0."""
+        return np.maximum(self.colour.matrix @ np.broadcast_to(np.ravel(value), (len(self.channels),)), 0.0)
+
+    def nonlinear(self, value) -> np.ndarray | None:
+        """Any parameter by colour: as it is where all channels agree or are colours themselves, else None."""
+        if np.ptp(value) == 0:
+            return np.full(3, float(np.ravel(value)[0]))
+        return None if self.colour.mixes else self.colour.matrix @ np.ravel(value)
 
     def spectral(self, geom: Geometry) -> np.ndarray:
         """Finite part of the BRDF [1/sr], (samples, channels)."""
@@ -104,12 +109,11 @@ class Export:
 
 @dataclass(frozen=True)
 class Exporter:
-    """One target. `supports` gives "exact", "refit" or "lossy", or raises `Refused`."""
+    """One target. `export` states exact, refit or lossy in its result, or raises `Refused`."""
 
     module: str
     suffix: str
     what: str  # one line for the catalogue
-    supports: Callable[[Surface], str]
     # export(surface, geom, stem) -> Export; geom None: the standard directions; stem: name of the file without its suffix
     export: Callable[..., Export]
 
@@ -168,9 +172,10 @@ def rgb_numbers(values, low: float, high: float, what: str) -> list[float]:
     return numbers(np.broadcast_to(np.ravel(values), (3,)), low, high, what)
 
 
-def three(text_of) -> str:
-    """Numbers separated by blanks, as most formats want them."""
-    return " ".join(f"{x:.9g}" for x in text_of)
+def identifier(name: str) -> str:
+    """A name that every target takes: letters, digits and underscores, not beginning with a digit."""
+    clean = "".join(c if c.isascii() and c.isalnum() else "_" for c in name) or "surface"
+    return clean if clean[0].isalpha() else f"m_{clean}"
 
 
 def check_values(model: Sum, values: Mapping, channels: int) -> dict:

@@ -33,7 +33,12 @@ class Colour:
 
     matrix: np.ndarray  # (3, channels)
     how: str
-    spectral: bool = False
+    named: bool = True  # colours or one channel; False: wavelengths
+
+    @property
+    def mixes(self) -> bool:
+        """Whether a colour is made of several channels, so that only linear parameters can be converted."""
+        return self.matrix.shape[1] > 1 and bool(np.any(np.count_nonzero(self.matrix, axis=1) > 1))
 
 
 def to_srgb(channels, wavelength) -> Colour:
@@ -59,7 +64,7 @@ def to_srgb(channels, wavelength) -> Colour:
         unit = np.zeros(len(nm))
         unit[place] = 1.0
         weights[:, channel] = xyz @ np.interp(grid, nm[order], unit)
-    return Colour(_white(XYZ_TO_SRGB @ weights), f"{len(nm)} wavelengths to linear sRGB, {how}", spectral=True)
+    return Colour(_white(XYZ_TO_SRGB @ weights), f"{len(nm)} wavelengths to linear sRGB, {how}", named=False)
 
 
 def _white(matrix):

@@ -1,42 +1,52 @@
 """Which directions an export is judged over, and the metric: rms of ln(target's law / model).
 
 The data's own directions where the caller has them. Otherwise a grid: theta_i and theta_r 0 to 80 degrees by 10 with
-seven azimuths, and steps of 0.25 to 16 degrees about each mirror direction, so that a lobe of 0.2 degrees is seen.
+seven azimuths, and steps about each mirror direction of 0.25 to 16 degrees and of 0.3 to 3 times the half width that the
+lobe has at 30 degrees, so that a lobe of a hundredth of a degree is seen.
 """
 
 import numpy as np
 
-from ..geometry import Geometry, rows
+from ..geometry import Geometry, in_plane, rows
 
 FAINTEST = 1e-4  # of the brightest value at the same incidence: what lies below nobody sees, and a logarithm would count it in full
+WIDTHS = np.array([0.3, 0.6, 1.0, 1.7, 3.0])
 NEAR = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0])  # degrees from the mirror direction
 
 
-def standard() -> Geometry:
-    """The grid above, (samples, 1)."""
+def standard(surface=None) -> Geometry:
+    """The grid above, (samples, 1); without a surface, without the steps that follow its width."""
     theta = np.arange(0.0, 81.0, 10.0)
     azimuth = np.array([0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0])
     regular = np.array(np.meshgrid(theta, theta, azimuth, indexing="ij")).reshape(3, -1)
+    steps = NEAR if surface is None else np.unique(np.concatenate((NEAR, half_width(surface) * WIDTHS)))
     about = []
     for theta_i in theta:
-        for step in NEAR:
+        for step in steps:
             about += [(theta_i, abs(theta_i - step), 180.0 if theta_i >= step else 0.0)]
             about += [(theta_i, theta_i + step, 180.0)] if theta_i + step < 90 else []
-            if theta_i > 0:
-                sideways = step / np.sin(np.radians(theta_i))
-                about += [(theta_i, theta_i, 180.0 - sideways)] if sideways < 90 else []
+            sideways = 2 * np.degrees(np.arcsin(min(1.0, np.sin(np.radians(step / 2)) / max(np.sin(np.radians(theta_i)), 1e-9))))
+            about += [(theta_i, theta_i, 180.0 - sideways)] if 0 < sideways < 90 else []
     theta_i, theta_r, phi = np.concatenate([regular, np.array(about).T], axis=1)
     return rows(Geometry.from_degrees(theta_i, 0.0, theta_r, phi))
+
+
+def half_width(surface) -> float:
+    """Degrees from the mirror direction at which the surface falls to half its value there, at 30 degrees; at most 16."""
+    steps = np.concatenate(([0.0], np.geomspace(1e-3, 16.0, 60)))
+    value = np.sum(surface.spectral(in_plane(30.0, 30.0 + steps)), axis=-1)
+    below = np.nonzero(value < 0.5 * value[0])[0]
+    return float(steps[below[0]]) if len(below) else 16.0
 
 
 STANDARD_WORDS = "directions with theta_i 0..80 deg"
 
 
-def chosen(surface, geom: Geometry | None) -> tuple[Geometry, np.ndarray, str]:
-    """Directions, the surface's linear sRGB there (samples, 3), NaN where it does not count, and both in words."""
+def chosen(surface, geom: Geometry | None, spectral: bool = False) -> tuple[Geometry, np.ndarray, str]:
+    """Directions, the surface's linear sRGB or its channels there (samples, colours), NaN where it does not count, and words."""
     words = STANDARD_WORDS if geom is None else "of the data's directions"
-    geom = standard() if geom is None else rows(geom)
-    rgb = surface.rgb(geom)
+    geom = standard(surface) if geom is None else rows(geom)
+    rgb = surface.spectral(geom) if spectral else surface.rgb(geom)
     counted = geom.lit & (rgb > 0)
     incidence = np.round(geom.theta_i_deg[:, 0], 1)
     for theta_i in np.unique(incidence):

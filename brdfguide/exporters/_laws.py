@@ -24,9 +24,10 @@ from ..optics import f0 as normal_reflectance
 from ..optics import fresnel
 from ._refit import Law
 
-ALPHA = Parameter("alpha", 0.2, 1e-3, 1.0, log=True, starts=(0.01, 0.03, 0.1, 0.2, 0.4, 0.8))
+ALPHA = Parameter("alpha", 0.2, 1e-4, 1.0, log=True, starts=(0.01, 0.03, 0.1, 0.2, 0.4, 0.8))
 ROUGHNESS = Parameter("roughness", 0.4, 0.04, 1.0, log=True, starts=(0.1, 0.2, 0.32, 0.45, 0.65, 0.9))
 INDEX = Parameter("n", 1.5, 1.01, 100.0, log=True, origin=1.0, starts=(1.3, 1.6, 3.0, 20.0))
+SCALE = Parameter("scale", 1.0, 0.0, 1e3, linear=True, per_channel=True)
 COLOUR = Parameter("albedo", 0.5, 0.0, 1.0, linear=True, per_channel=True)
 
 
@@ -78,16 +79,32 @@ def schlick(cos_d, f0, f90=1.0):
 # --- Mitsuba and pbrt: a body and a conductor side by side ------------------------------------------
 
 
-def body_and_conductor(distribution, masking, alpha_least: float, scale_most: float = 1.0) -> Law:
-    """albedo/π + scale D F(n, k) G / (4 cos θi cos θr)."""
+def body_alone() -> Law:
+    """albedo/π."""
+    return Law((COLOUR,), lambda geom, *, albedo: np.broadcast_to(albedo / pi, np.broadcast_shapes(geom.shape, np.shape(albedo))))
+
+
+def body_and_conductor(distribution, masking) -> Law:
+    """Mitsuba: albedo/π + scale D F(n, k) G / (4 cos θi cos θr)."""
 
     def brdf(geom, *, albedo, scale, alpha, n, k=0.0):
-        lobe = microfacet(geom, distribution, masking, fresnel(geom.cos_d, n, k), alpha)
-        return albedo / pi + scale * lobe
+        return albedo / pi + scale * microfacet(geom, distribution, masking, fresnel(geom.cos_d, n, k), alpha)
 
-    alpha = Parameter("alpha", 0.2, alpha_least, 1.0, log=True, starts=ALPHA.starts)
-    scale = Parameter("scale", 1.0, 0.0, scale_most, linear=True, per_channel=True)
-    return Law((COLOUR, scale, alpha, INDEX), brdf)
+    # a body brighter than this leaves the lobe under 2 % of the paths, at 50 times their weight
+    return Law((Parameter("albedo", 0.5, 0.0, 0.98, linear=True, per_channel=True), SCALE, ALPHA, INDEX), brdf)
+
+
+def mixed() -> Law:
+    """pbrt: (1 - amount) albedo/π + amount D F(n, k) G / (4 cos θi cos θr), correlated masking, no scale of its own."""
+
+    def brdf(geom, *, albedo, amount, alpha, n, k=0.0):
+        lobe = microfacet(geom, ggx, correlated, fresnel(geom.cos_d, n, k), alpha)
+        return (1 - amount) * albedo / pi + amount * lobe
+
+    alpha = Parameter("alpha", 0.2, 1e-3, 1.0, log=True, starts=ALPHA.starts)  # below 1e-3 pbrt makes it a mirror
+    amount = Parameter("amount", 0.5, 0.0, 1.0, starts=(0.1, 0.5, 0.9))
+    index = Parameter("n", 1.5, 1.01, 100.0, log=True, origin=1.0, per_channel=True, starts=(1.5, 4.0))
+    return Law((COLOUR, amount, alpha, index), brdf)
 
 
 # --- glTF -------------------------------------------------------------------------------------------
@@ -154,9 +171,7 @@ def conductor_node() -> Law:
     def brdf(geom, *, albedo, scale, alpha, n, k=0.0):
         return albedo / pi + scale * _materialx_lobe(geom, fresnel(geom.cos_d, n, k), alpha)
 
-    scale = Parameter("scale", 1.0, 0.0, 1.0, linear=True, per_channel=True)
-    alpha = Parameter("alpha", 0.2, 1e-3, 1.0, log=True, starts=ALPHA.starts)
-    return Law((COLOUR, scale, alpha, INDEX), brdf)
+    return Law((COLOUR, SCALE, ALPHA, INDEX), brdf)
 
 
 def openpbr_dielectric() -> Law:
@@ -177,13 +192,17 @@ def openpbr_dielectric() -> Law:
 COS_82 = 1 / 7  # where Kutz and Hoffman's F82 bends Schlick's curve
 
 
+def hoffman(c, *, albedo, edge):
+    """Schlick's curve bent so that it is `edge` times as high at 82 degrees."""
+    bend = schlick(COS_82, albedo) * (1 - edge) / (COS_82 * (1 - COS_82) ** 6)
+    return schlick(c, albedo) - bend * c * (1 - c) ** 6
+
+
 def openpbr_metal() -> Law:
     """generalized_schlick_bsdf: F0 = albedo, bent at 82 degrees by `edge`, 1 at grazing."""
 
     def brdf(geom, *, albedo, edge, roughness):
-        c = geom.cos_d
-        bend = schlick(COS_82, albedo) * (1 - edge) / (COS_82 * (1 - COS_82) ** 6)
-        return _materialx_lobe(geom, schlick(c, albedo) - bend * c * (1 - c) ** 6, np.square(roughness))
+        return _materialx_lobe(geom, hoffman(geom.cos_d, albedo=albedo, edge=edge), np.square(roughness))
 
     edge = Parameter("edge", 1.0, 0.0, 1.0, per_channel=True, starts=(0.6, 1.0))
     metal = Parameter("albedo", 0.5, 1e-3, 1.0, log=True, per_channel=True, starts=(0.1, 0.5, 0.9))

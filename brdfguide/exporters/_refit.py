@@ -5,7 +5,7 @@ bounds are the ranges its reader documents and nothing outside them can be writt
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 
 import numpy as np
@@ -26,14 +26,16 @@ class Law:
 
     parameters: tuple[Parameter, ...]
     brdf: Callable[..., np.ndarray]
+    fixed: Mapping = field(default_factory=dict)  # held parameters, which the file needs too
 
     def at(self, geom: Geometry, values: Mapping) -> np.ndarray:
         return self.brdf(geom, **values)
 
     def with_fixed(self, **fixed) -> "Law":
-        """The same law with some parameters held."""
+        """The same law with some parameters held; alike for all colours as one number, so that grey stays grey."""
+        fixed = {name: float(np.ravel(value)[0]) if np.ptp(value) == 0 else value for name, value in fixed.items()}
         free = tuple(p for p in self.parameters if p.name not in fixed)
-        return Law(free, lambda geom, **values: self.brdf(geom, **fixed, **values))
+        return Law(free, lambda geom, **values: self.brdf(geom, **fixed, **values), {**self.fixed, **fixed})
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,35 @@
+"""MaterialX 1.39 documents: a shader node with inputs, and the surfacematerial that holds it."""
+
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from ._base import Statement, Surface, header, identifier, number, rgb_numbers
+
+
+def document(surface: Surface, statement: Statement, elements: list[str]) -> str:
+    """The whole text; `elements` are lines inside <materialx>."""
+    comment = "\n".join("  " + line for line in header(surface, statement))
+    return f'<?xml version="1.0"?>\n<!--\n{comment}\n-->\n<materialx version="1.39" colorspace="lin_rec709">\n' + "\n".join(elements) + "\n</materialx>\n"
+
+
+def shader(surface: Surface, node: str, inputs: dict) -> list[str]:
+    """Lines of one surface shader and its material; an input is (type, value)."""
+    name = identifier(surface.name)
+    lines = [f'  <{node} name="{name}_shader" type="surfaceshader">']
+    lines += [f'    <input name="{key}" type="{kind}" value="{value}"/>' for key, (kind, value) in inputs.items()]
+    return [*lines, f"  </{node}>", *material(name)]
+
+
+def material(name: str) -> list[str]:
+    quoted = quoteattr(name)
+    return [f'  <surfacematerial name={quoted} type="material">',
+            f'    <input name="surfaceshader" type="surfaceshader" nodename="{name}_shader"/>', "  </surfacematerial>"]  # fmt: skip
+
+
+def colour3(values, low: float, high: float, what: str) -> tuple[str, str]:
+    return "color3", ", ".join(f"{value:.9g}" for value in rgb_numbers(values, low, high, what))
+
+
+def real(value, low: float, high: float, what: str) -> tuple[str, str]:
+    return "float", f"{number(np.ravel(value)[0], low, high, what):.9g}"
