@@ -146,7 +146,12 @@ def header(surface: Surface, statement: Statement) -> list[str]:
     lines = [f"brdfguide {__version__}", f"command: {surface.command}" if surface.command else "", f"surface: {surface.name}",
              f"model: {surface.model.name}", f"parameters: {parameters}", f"colour: {statement.colour or surface.colour.how}",
              statement.sentence(), *statement.notes]  # fmt: skip
-    return [line.replace("--", "- -").replace("*/", "* /").replace("\n", " ") for line in lines if line]
+    return [line.replace("\n", " ") for line in lines if line]
+
+
+def xml_comment(lines: list[str]) -> str:
+    """The same as an XML comment, in which two hyphens may not meet: an option --to is shown as - -to."""
+    return "<!--\n" + "\n".join("  " + line.replace("--", "- -") for line in lines) + "\n-->"
 
 
 def _spelt(value) -> str:

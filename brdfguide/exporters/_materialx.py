@@ -4,13 +4,13 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ._base import Statement, Surface, header, identifier, number, rgb_numbers
+from ._base import Statement, Surface, header, identifier, number, rgb_numbers, xml_comment
 
 
 def document(surface: Surface, statement: Statement, elements: list[str]) -> str:
     """The whole text; `elements` are lines inside <materialx>."""
-    comment = "\n".join("  " + line for line in header(surface, statement))
-    return f'<?xml version="1.0"?>\n<!--\n{comment}\n-->\n<materialx version="1.39" colorspace="lin_rec709">\n' + "\n".join(elements) + "\n</materialx>\n"
+    comment = xml_comment(header(surface, statement))
+    return f'<?xml version="1.0"?>\n{comment}\n<materialx version="1.39" colorspace="lin_rec709">\n' + "\n".join(elements) + "\n</materialx>\n"
 
 
 def shader(surface: Surface, node: str, inputs: dict) -> list[str]:

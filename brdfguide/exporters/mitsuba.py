@@ -3,16 +3,15 @@
 from xml.sax.saxutils import quoteattr
 
 from ..geometry import Geometry
-from ._base import Export, Exporter, Surface, header, identifier
+from ._base import Export, Exporter, Surface, header, identifier, xml_comment
 from ._mitsuba import tree
 
 
 def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """XML text and its Statement."""
     plugins, statement = tree(surface, geom, "mitsuba")
-    comment = "\n".join("  " + line for line in header(surface, statement))
     body = "\n".join(_element(plugins, "bsdf", f' id={quoteattr(identifier(surface.name))} version="3.0.0"', 0))
-    return Export(f"<!--\n{comment}\n-->\n{body}\n", statement)
+    return Export(f"{xml_comment(header(surface, statement))}\n{body}\n", statement)
 
 
 def _element(plugin: dict, tag: str, attributes: str, depth: int):

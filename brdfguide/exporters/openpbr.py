@@ -2,7 +2,7 @@
 
 specular_roughness² is alpha. A metal's base_color is F0 and its specular_color the reflectance at 82 degrees relative
 to Schlick's; a dielectric's body gets what the lobe leaves. OpenPBR adds the light scattered between facets, which no
-law of the guide has. The law fitted is the one in MaterialX's own nodes.
+law of the guide has; and it dims a body at grazing even under an index of 1. The law fitted is the one in MaterialX's own nodes.
 """
 
 from ..geometry import Geometry
@@ -12,9 +12,6 @@ from ._choice import choose, has_body, what_is_lost
 from ._materialx import colour3, document, real, shader
 from ._smooth import choose_smooth, is_smooth
 
-MATT = {"n": 1.0, "roughness": 1.0}  # an index of 1 has no lobe
-
-
 def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """MaterialX text and its Statement."""
     dielectric = _laws.openpbr_dielectric()
@@ -22,11 +19,11 @@ def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface"
         choice, lost = choose_smooth(surface, _smooth.openpbr(has_body(surface))), ()
     else:
         laws = {"metal": _laws.openpbr_metal(), "dielectric": dielectric}
-        laws = {"matt": _laws.body_alone(), "dielectric": dielectric} if has_body(surface) else laws
+        laws = {"matt": dielectric.with_fixed(n=1.0), "dielectric": dielectric} if has_body(surface) else laws
         lost = refuse_mirror(surface, "openpbr") + what_is_lost(surface)
         choice = choose(surface, geom, laws)
     statement = choice.statement("openpbr", surface, lost=lost)
-    values = choice.values if choice.name != "matt" else {**MATT, **choice.values}
+    values = choice.values
     inputs = {
         "base_color": colour3(values.get("albedo", 0.0), 0.0, 1.0, "base_color"),
         "base_metalness": real(float(choice.name == "metal"), 0.0, 1.0, "base_metalness"),
@@ -36,8 +33,6 @@ def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface"
         inputs["specular_color"] = colour3(values["edge"], 0.0, 1.0, "specular_color")
     else:
         inputs["specular_ior"] = real(values["n"], 1.0, 3.0, "specular_ior")
-    if choice.name == "matt":
-        inputs["specular_weight"] = real(0.0, 0.0, 1.0, "specular_weight")
     return Export(document(surface, statement, shader(surface, "open_pbr_surface", inputs)), statement)
 
 

@@ -1,0 +1,67 @@
+"""What `export` reads: a fit's JSON, a material, or a model with parameters on the command line."""
+
+import shlex
+import sys
+from math import radians
+from pathlib import Path
+
+from ..errors import InputError, choices
+
+
+def command_line() -> str:
+    """The command as typed, for the comment of what it wrote; the same command gives the same bytes."""
+    return shlex.join(["brdfguide", *sys.argv[1:]])
+
+
+def read_surface(words: list[str], model: str | None, channel: str | None, name: str, command: str):
+    """The exporters.Surface that the words and options mean. Raises InputError."""
+    from .. import exporters
+
+    inputs = [word for word in words if "=" not in word]
+    given = [word for word in words if "=" in word]
+    if len(inputs) > 1:
+        raise InputError(f"one input at a time, found {' and '.join(inputs)}")
+    if inputs:
+        if given:
+            raise InputError(f"{inputs[0]} has its parameters already; {given[0]} needs --model instead of an input")
+        return exporters.surface_of(_saved(inputs[0], model), name, command, channel)
+    if model is None:
+        raise InputError("what to export: a fit's JSON, a material's YAML, or --model with NAME=VALUE parameters")
+    return exporters.surface_of(_typed(model, given), name, command, channel)
+
+
+def _saved(path: str, model: str | None):
+    from .. import saved
+
+    if Path(path).suffix.lower() in (".yaml", ".yml"):
+        raise InputError(f"{path}: recommend it first: brdfguide recommend {path} --json > fit.json")
+    return saved.read_fit(path, model)
+
+
+def _typed(model: str, given: list[str]):
+    """A model and its parameters from words such as ggx.alpha=0.2 or lambertian.albedo=0.1,0.2,0.3; angles in degrees."""
+    import numpy as np
+
+    from .. import models
+    from ..saved import Saved
+
+    sum_ = models.get(model)
+    values = dict(sum_.defaults())
+    colours = 1
+    for word in given:
+        key, _, text = word.partition("=")
+        if key not in sum_.parameters:
+            raise choices(f"parameter of {sum_.name}", key, list(sum_.parameters))
+        try:
+            numbers = [float(part) for part in text.split(",")]
+        except ValueError:
+            raise InputError(f"{word}: wanted one number, or three with commas for red, green and blue") from None
+        if len(numbers) not in (1, 3):
+            raise InputError(f"{word}: {len(numbers)} numbers; wanted one, or three for red, green and blue")
+        if sum_.parameters[key].unit == "rad":
+            numbers = [radians(number) for number in numbers]
+        colours = max(colours, len(numbers))
+        values[key] = np.array(numbers) if len(numbers) == 3 else numbers[0]
+    if colours == 3:
+        return Saved(sum_, values, ("R", "G", "B"), np.array([0.61, 0.55, 0.46]), {})
+    return Saved(sum_, values, ("550 nm",), np.array([0.55]), {})
