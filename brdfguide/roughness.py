@@ -73,6 +73,16 @@ def formula_crossing(angle_deg: float, slope: float, wavelength: float = WAVELEN
     return _within(slope * tau, tau, scale)
 
 
+def formula_angle(sigma: float, tau: float, wavelength: float = WAVELENGTH) -> float:
+    """The angle [deg] at which Eq. 3 passes through (sigma, tau)."""
+    scale = wavelength / WAVELENGTH
+    _within(sigma, tau, scale)
+    c = sigma / scale * ((tau / scale) ** 0.7 + 6)
+    if not constant(0.0) <= c <= TABLE_2[-1][1]:
+        raise NoAnswer(f"Eq. 3 needs C = {c:.3g} for sigma = {sigma:g}, tau = {tau:g} um: Table 2 goes from {constant(0.0):.3g} to 20")
+    return _root(lambda angle: log(constant(angle) / c), 0.0, float(TABLE_2[-1][0]))
+
+
 def _within(sigma, tau, scale):
     """(sigma, tau), if Eq. 3 was ever meant for them."""
     if sigma / tau > STEEPEST:
@@ -88,8 +98,8 @@ def _within(sigma, tau, scale):
 def crossing(angle_deg: float, slope: float, wavelength: float = WAVELENGTH, omega: float = OMEGA) -> tuple[float, float]:
     """(sigma, tau) where the contour of this angle meets sigma/tau = slope: one point at every angle in 0..90."""
     _check_slope(slope)
-    share = slope * effective(slope, angle_deg) * _cos(angle_deg)
     target = _ln_target(angle_deg, wavelength, omega)
+    share = slope * effective(slope, angle_deg) * _cos(angle_deg)
     # ln Ein + 2 ln tau is convex in ln tau and Ein >= g, so Newton from where Ein is taken for g comes down to the root
     x = 0.25 * (target - 2 * log(4 * pi * share / wavelength))
     for _ in range(100):
@@ -122,16 +132,17 @@ def sigmas_for_tau(angle_deg: float, tau: float, wavelength: float = WAVELENGTH,
 
 
 def tau_for_sigma(angle_deg: float, sigma: float, wavelength: float = WAVELENGTH, omega: float = OMEGA) -> float:
-    """The tau on the contour at this sigma: one at every angle."""
+    """The tau on the contour at this sigma: one at every angle. Raises NoAnswer where sigma/tau would exceed 100."""
     target = _ln_target(angle_deg, wavelength, omega)
 
     def miss(x):
         g = (4 * pi * sigma * effective(sigma / exp(x), angle_deg) * _cos(angle_deg) / wavelength) ** 2
         return ln_ein(g)[0] + 2 * x - target
 
-    low = high = 0.0
-    while miss(low) > 0:
-        low -= 4
+    low = log(sigma / 100)
+    if miss(low) > 0:
+        raise NoAnswer(f"the criterion has no tau above {exp(low):.3g} um for sigma = {sigma:g} um")
+    high = low + 4
     while miss(high) < 0:
         high += 4
     return exp(_root(miss, low, high))

@@ -66,6 +66,7 @@ FLOORS = tuple(
         """
         __main__
         cli
+        quick
         """,
     )
 )

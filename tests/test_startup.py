@@ -11,6 +11,10 @@ HEAVY = ("numpy", "scipy", "yaml", "matplotlib")
 # command line -> modules that it must not load; one row for each command
 MAY_NOT_LOAD = {
     "--help": HEAVY,
+    "--version": (*HEAVY, "typer", "json", "dataclasses", "re"),
+    "roughness --angle 80": (*HEAVY, "typer", "rich", "json", "dataclasses", "re", "typing"),
+    "roughness --angle 80 --json": (*HEAVY, "typer", "rich", "json", "dataclasses", "re", "typing"),
+    "roughness --help": HEAVY,
 }
 RUN = """
 import sys
