@@ -56,6 +56,10 @@ def ward(p, rho_s, alpha):
     return rho_s * exp(-p.tan2_h / alpha**2) / (4 * pi * alpha**2 * sqrt(p.cos_i * p.cos_r))
 
 
+def ward_duer(p, rho_s, alpha):
+    return rho_s * exp(-p.tan2_h / alpha**2) / (4 * pi * alpha**2 * p.cos_i * p.cos_r)
+
+
 def ward_gmd(p, rho_s, alpha):
     h = [a + b for a, b in zip(p.i, p.r)]
     return rho_s * exp(-p.tan2_h / alpha**2) / (pi * alpha**2) * sum(a * a for a in h) / h[2] ** 4
@@ -107,7 +111,7 @@ def mirror(p, n, k, sigma):
 
 LAWS = {
     "lambertian": lambertian, "phong": phong, "phong-lewis": phong_lewis, "blinn": blinn, "ward": ward,
-    "ward-gmd": ward_gmd, "lafortune": lafortune, "cook-torrance": cook_torrance, "beckmann": beckmann, "ggx": ggx,
+    "ward-duer": ward_duer, "ward-gmd": ward_gmd, "lafortune": lafortune, "cook-torrance": cook_torrance, "beckmann": beckmann, "ggx": ggx,
     "oren-nayar": oren_nayar, "mirror": mirror,
 }  # fmt: skip
 

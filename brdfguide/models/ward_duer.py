@@ -1,0 +1,51 @@
+"""Ward's lobe in Dür's form: divided by the cosines themselves, not by the root of their product.
+
+    f = rho_s exp(-tan²δ / alpha²) / (4π alpha² cos θi cos θr),   δ from normal to half vector
+
+Keeps its reflectance near rho_s up to 80°, where Ward's own form loses most of it, and then sends far more than it
+receives. `ward-gmd` mends that; this one is here because published fits use it.
+
+Source: Dür 2006, "An improved normalization for the Ward reflectance model".
+"""
+
+from math import pi
+
+import numpy as np
+
+from ..geometry import Geometry, in_plane
+from ._base import Extreme, Model, Parameter, Pin
+
+
+def brdf(geom: Geometry, *, rho_s, alpha) -> np.ndarray:
+    """Lobe [1/sr], in the shape of `geom`."""
+    lobe = np.exp(geom.tan2_h / -(alpha * alpha))
+    return (rho_s / (4 * pi * (alpha * alpha))) * lobe / geom.cos_cos
+
+
+def gradient(geom: Geometry, names, *, rho_s, alpha) -> dict[str, np.ndarray]:
+    """df/dalpha = f (2/alpha) (tan²δ/alpha² - 1)."""
+    f = brdf(geom, rho_s=rho_s, alpha=alpha)
+    return {"alpha": f * (2 / alpha) * (geom.tan2_h / alpha**2 - 1)}
+
+
+MODEL = Model(
+    __name__,
+    brdf,
+    roles=("surface", "subsurface"),
+    parameters=(
+        Parameter("rho_s", 0.10, 0.0, 1.0, linear=True, per_channel=True, meaning="share of the light sent into the lobe"),
+        Parameter("alpha", 0.20, 1e-4, 1.5, log=True, meaning="facet slope, √2 times the rms slope along a line", starts=(0.02, 0.05, 0.1, 0.2, 0.35, 0.6)),
+    ),
+    gradient=gradient,
+    summary="as Ward to 80°, with facets' growth; gains energy beyond: for published fits, else use ward-gmd",
+    pins=(
+        Pin(in_plane(45, 50), {"rho_s": 0.3, "alpha": 0.12}, f=3.1952461273449062, source="50 digits"),
+        Pin(in_plane(75, -20), {"rho_s": 0.8, "alpha": 0.7}, f=0.047004676070245384, source="50 digits"),
+    ),
+    extremes=(
+        Extreme("narrowest lobe, 0.01° from grazing", in_plane(89.99, 89.99), {"alpha": 1e-4}),
+        Extreme("lobe underflows far from the mirror", in_plane(10, -80), {"alpha": 1e-4}, f=0.0),
+    ),
+    breaks={"energy": "1/(cos θi cos θr) sends more than 1 beyond 80°: 3.4 at 89° for alpha 0.2"},
+    source="Dür 2006",
+)
