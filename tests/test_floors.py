@@ -61,6 +61,7 @@ FLOORS = tuple(
         check
         exporters
         preview
+        references
         report
         """,
         """

@@ -6,7 +6,8 @@
     C2 = 0.45 s²/(s² + 0.09) (sin α - (2β/π)³ where cos φ < 0)
 
 Clay, unglazed ceramics, matte paper, dust: flatter than Lambert and brighter toward the light. The light between
-facets makes it quadratic in the albedo. `qualitative` is the paper's short form, without that light and without C3.
+facets makes it quadratic in the albedo, and the fitted C2 makes it negative at grazing for a spread above 0.66.
+`qualitative` is the paper's short form, without the light between facets and without C3.
 
 Source: Oren and Nayar 1994, "Generalization of Lambert's reflectance model".
 """
@@ -70,19 +71,19 @@ MODEL = Model(
     roles=("subsurface",),
     parameters=(
         Parameter("albedo", 0.5, 0.0, 1.0, per_channel=True, meaning="reflectance of a facet", starts=(0.1, 0.4, 0.8)),
-        Parameter("spread", 0.3, 0.0, 1.2, unit="rad", meaning="standard deviation of the facets' tilt", starts=(0.1, 0.3, 0.6)),
+        Parameter("spread", 0.3, 0.0, 0.66, unit="rad", meaning="standard deviation of the facets' tilt", starts=(0.1, 0.3, 0.6)),
     ),
     gradient=gradient,
     without={"interreflection": qualitative},
     summary="rough diffusers: clay, matte paper, dust; flatter than Lambert, brighter toward the light",
     pins=(
         Pin(in_plane(45, 50), {"albedo": 0.75, "spread": 0.4}, f=0.17667271277907862, source="50 digits"),
-        Pin(in_plane(70, -40), {"albedo": 0.2, "spread": 0.9}, f=0.06287182079706264, source="50 digits"),
+        Pin(in_plane(70, -40), {"albedo": 0.2, "spread": 0.6}, f=0.066401622655465497, source="50 digits"),
         Pin(Geometry.from_degrees(60, 10, 30, 75), {"albedo": 0.9, "spread": 0.7}, f=0.25777535232049272, source="50 digits"),
     ),
     extremes=(
-        Extreme("at the normal, where the azimuth is undefined", in_plane(0, 0), {"albedo": 1.0, "spread": 1.2}),
-        Extreme("both at grazing, where tan β grows without bound", in_plane(89.99, -89.99), {"albedo": 1.0, "spread": 1.2}),
+        Extreme("at the normal, where the azimuth is undefined", in_plane(0, 0), {"albedo": 1.0, "spread": 0.66}),
+        Extreme("both at grazing, where tan β grows without bound", in_plane(89.99, -89.99), {"albedo": 1.0, "spread": 0.66}),
     ),
     breaks={"energy": "tan β sends more than 1 toward grazing: 1.02 at 89° for albedo 1, spread 0.5"},
     source="Oren and Nayar 1994",

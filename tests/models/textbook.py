@@ -80,8 +80,8 @@ def cook_torrance(p, alpha, n, k, scale):
 
 def beckmann(p, alpha, n, k, scale):
     def hidden(theta):
-        if theta == 0:
-            return mpf(0)
+        if alpha * tan(theta) < mpf("0.001"):
+            return mpf(0)  # less than exp(-1e6)
         x = 1 / (alpha * tan(theta))
         return (exp(-x * x) / (x * sqrt(pi)) - erfc(x)) / 2
 
