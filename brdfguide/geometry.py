@@ -49,8 +49,8 @@ class Geometry:
         off_mirror = np.remainder(phi, 360.0) - 180.0
         off_mirror = np.where(off_mirror == -180.0, 180.0, off_mirror)
         half = np.radians(0.5 * (off_mirror + lost))
-        half_sum, half_difference = 0.5 * (theta_i + theta_r), np.radians(0.5 * (theta_i - theta_r))
-        cos_mean, sin_mean = _cos_sin(half_sum)
+        half_difference = np.radians(0.5 * (theta_i - theta_r))
+        cos_mean, sin_mean = _cos_sin(0.5 * (theta_i + theta_r), 0.5 * ((90.0 - theta_i) + (90.0 - theta_r)))
         sin_half = np.sin(half)
         vxy2 = (2 * cos_mean * np.sin(half_difference)) ** 2 + 4 * sin_i * sin_r * sin_half**2
         dot_xy = -sin_i * sin_r * _cos_twice(half, sin_half)
@@ -238,11 +238,11 @@ def rows(geom: Geometry) -> Geometry:
     return replace(geom, **{name: np.reshape(getattr(geom, name), (-1, 1)) for name in DIRECTIONAL})
 
 
-def _cos_sin(degrees):
-    """Cosine and sine; the cosine from the complement beyond 45°, where 90 - θ is exact in floating point."""
+def _cos_sin(degrees, complement=None):
+    """Cosine and sine; beyond 45° from the complement, since 90 - θ is exact there in floating point."""
     steep = degrees > 45.0
-    complement = np.radians(np.where(steep, 90.0 - degrees, degrees))
-    cos, sin = np.cos(complement), np.sin(complement)
+    angle = np.radians(np.where(steep, 90.0 - degrees if complement is None else complement, degrees))
+    cos, sin = np.cos(angle), np.sin(angle)
     return np.where(steep, sin, cos), np.where(steep, cos, sin)
 
 
