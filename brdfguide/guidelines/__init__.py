@@ -1,1 +1,39 @@
-"""guidelines."""
+"""The report's section 5 as rules, in its order: domain, metal or not, index, subsurface, roughness, choice.
+
+`consult` folds them over a material. Order and "never overwrite" are the report's first guideline: use whatever data
+are available, measured before guessed. A rule that does not apply is silent; none evaluates a BRDF.
+"""
+
+from dataclasses import dataclass, replace
+
+from .. import catalog
+from ..material import Material
+from ._base import Advice, Rule
+
+ORDER = ("domain", "interface", "index", "subsurface", "finish", "choice")
+
+
+@dataclass(frozen=True)
+class Consultation:
+    """The material with its blanks filled, what each rule said, and which were silent."""
+
+    material: Material
+    advice: tuple[Advice, ...]
+    silent: tuple[Rule, ...]
+
+
+def rules() -> tuple[Rule, ...]:
+    return tuple(rule for part in ORDER for rule in catalog.load("guidelines", part).RULES)
+
+
+def consult(material: Material) -> Consultation:
+    """Every rule once, in order; each sees what those before it filled in."""
+    spoken, silent = [], []
+    for each in rules():
+        advice = each(material)
+        if advice is None:
+            silent.append(each)
+            continue
+        spoken.append(replace(advice, rule=each.__name__, section=each.section))
+        material = material.filled(advice.sets, each.__name__)
+    return Consultation(material, tuple(spoken), tuple(silent))
