@@ -1,0 +1,148 @@
+"""Finish and kind to models, in order (section 5.2). Names of sums only; start values are `starting`'s.
+
+The most complex model is never preferred for being complex: the report's metallic paint is served best by Phong's.
+"""
+
+from math import degrees
+
+from ..material import Material
+from ._base import Advice, rule
+
+SAMPLES = {
+    "rough aluminium": "section 4.1: aluminium on anti-glare glass",
+    "rough plastic": "section 4.2: an off-white computer case",
+    "white paper": "section 4.3: an office sheet",
+    "nearly smooth steel": "section 4.4: hand-lapped stainless steel",
+    "metallic paint": "section 4.5: automotive paint with flakes under a clear coat",
+}
+
+
+def body(material: Material) -> str:
+    """The subsurface term as a prefix of a sum."""
+    return "" if material.subsurface == "none" else "lambertian+"
+
+
+@rule("4.5, 5.2")
+def flake_paint(material: Material) -> Advice | None:
+    """Flakes under a coat: a general lobe plus the coat's mirror."""
+    if material.subsurface != "lobe":
+        return None
+    says = "Phong's lobe for the flakes, as the report found, and a Fresnel mirror for the coat; Lafortune's lobe matches, Ward's is third"
+    return Advice(says, "metallic flake", prefers=("phong+mirror", "lafortune+mirror", "phong-lewis+mirror", "ward+mirror"))
+
+
+@rule("5.2")
+def mirror_finish(material: Material) -> Advice | None:
+    """A mirror finish: Fresnel's equations, or a constant on a metal."""
+    if material.finish != "mirror" or material.subsurface == "lobe" or material.kind is None:
+        return None
+    rough = (f"{body(material)}he-torrance",) if material.sigma is not None else ()
+    what = "Fresnel's mirror, or a constant on this metal" if material.kind == "metal" else "Fresnel's mirror"
+    says = what + (" over the Lambertian body" if material.subsurface == "lambertian" else "")
+    return Advice(says, "a mirror finish", prefers=(f"{body(material)}mirror", *rough))
+
+
+@rule("4.4, 5.2")
+def nearly_smooth_metal(material: Material) -> Advice | None:
+    """Neither a plain mirror nor a mirror with Phong for lights will do for nearly smooth metal."""
+    if material.kind != "metal" or material.finish not in ("mirror", "high gloss") or material.sigma is None or material.sigma < 0.01:
+        return None
+    return Advice("a plain mirror loses the sun's highlight and the blur that sharpens at grazing; a mirror with Phong for lights still loses the blur", "a slightly rough metal")
+
+
+@rule("5.2")
+def high_gloss(material: Material) -> Advice | None:
+    """High gloss: He-Torrance, for the wave effects; Stam's is much the same on metals."""
+    if material.finish != "high gloss" or material.subsurface == "lobe" or material.kind not in ("metal", "dielectric"):
+        return None
+    other = "; Stam's model is as good on metals, with F constant (not built here)" if material.kind == "metal" else ""
+    names = (f"{body(material)}he-torrance", f"{body(material)}ggx", f"{body(material)}beckmann")
+    return Advice(f"He-Torrance, which holds lobe and mirror image together{other}", "a high gloss", prefers=names)
+
+
+@rule("4.1, 5.2")
+def low_gloss_metal(material: Material) -> Advice | None:
+    """Metals below high gloss: Ward, or He-Torrance where a mirror image emerges."""
+    if material.kind != "metal" or material.finish in ("mirror", "high gloss"):
+        return None
+    names = ("ward", "he-torrance", "ggx", "beckmann")
+    if material.emerges or (material.sigma is not None and material.emerges is not False):
+        says = "He-Torrance, since a mirror image emerges" if material.emerges else "He-Torrance, since sigma is known"
+        return Advice(f"{says}; Ward is enough for the lobe alone", "a metal below high gloss", prefers=("he-torrance", "ward", "ggx"))
+    return Advice("Ward; facet lobes grow more toward grazing, as metals do", "a metal below high gloss, no mirror image known", prefers=names)
+
+
+@rule("4.2, 4.3, 5.2")
+def low_gloss_dielectric(material: Material) -> Advice | None:
+    """Dielectrics below high gloss: a lobe with Fresnel's factor, He-Torrance where sigma is known."""
+    if material.kind != "dielectric" or material.subsurface == "lobe" or material.finish in ("mirror", "high gloss"):
+        return None
+    drops = {lobe: "grows too little toward grazing for a dielectric (sections 4.2, 4.3)" for lobe in ("ward", "phong", "phong-lewis", "blinn")}
+    if material.sigma is not None:
+        says, lobes = "He-Torrance, since sigma is known", ("he-torrance", "ggx", "lafortune")
+    elif material.finish == "matt" and material.subsurface == "lambertian":
+        says, lobes = "GGX, with Fresnel's rise; on paper Lafortune's lobe fitted best, but its numbers want a measurement", ("ggx", "lafortune", "he-torrance")
+    else:
+        says = "a facet lobe with Fresnel's factor; He-Torrance needs a sigma, which nothing observed tells"
+        lobes = ("ggx", "he-torrance", "lafortune")
+    names = [f"{body(material)}{lobe}" for lobe in lobes]
+    return Advice(says, "a dielectric below high gloss", prefers=tuple(names), drops=drops)
+
+
+@rule("4.5")
+def coated(material: Material) -> Advice | None:
+    """A clear coat over a solid body or a metal: the coat's mirror added."""
+    if material.coat != "clear" or material.subsurface == "lobe" or material.kind is None:
+        return None
+    if material.kind == "metal":
+        return Advice("the metal's lobe under the coat, and the coat's mirror added", "a clear coat on a metal", prefers=("ward+mirror", "ggx+mirror"))
+    return Advice("the coat's mirror over the body", "a clear coat", prefers=(f"{body(material)}mirror", f"{body(material)}he-torrance"))
+
+
+@rule("5.2")
+def kind_open(material: Material) -> Advice | None:
+    """Neither metal nor dielectric is known: one candidate of each."""
+    if material.kind in ("metal", "dielectric"):
+        return None
+    dark = material.appearance == "black"
+    names = ("ggx", "he-torrance") if dark else ("lambertian+ggx", "ggx", "lambertian+he-torrance")
+    return Advice("a candidate for each kind, since neither is known; do not mix them", "kind not known", prefers=names)
+
+
+@rule("5.2")
+def nearest_sample(material: Material) -> Advice | None:
+    """Compare with the report's five surfaces."""
+    sample, why = sample_like(material)
+    return Advice(f"nearest of the five: {sample}", why) if sample else None
+
+
+def sample_like(material: Material) -> tuple[str | None, str]:
+    """(one of SAMPLES, why)."""
+    if material.subsurface == "lobe":
+        return "metallic paint", "flakes under a clear coat"
+    if material.kind == "metal":
+        if material.finish in ("mirror", "high gloss") or (material.emergence is not None and degrees(material.emergence) < 30):
+            return "nearly smooth steel", "a metal that shows a mirror image near the normal"
+        return "rough aluminium", "a metal with a lobe"
+    if material.kind == "dielectric" and material.subsurface == "lambertian":
+        if material.finish == "matt":
+            return "white paper", "a matt Lambertian body whose lobe shows only toward grazing"
+        if material.finish in ("mirror", "high gloss"):
+            return "rough plastic", "a Lambertian body, though this one is glossier than any of the five: its surface is more like the paint's coat"
+        return "rough plastic", "a Lambertian body under a visible lobe"
+    if material.kind == "dielectric":
+        return "rough plastic", "a dielectric interface, though none of the five lacks a body"
+    return None, ""
+
+
+@rule("3.2.1, 4.2")
+def nearest_is_far(material: Material) -> Advice | None:
+    """None of the five is bare glass, black, or a glossy solid colour."""
+    if material.kind != "dielectric" or (material.subsurface == "lambertian" and material.finish not in ("mirror", "high gloss")) or material.subsurface == "lobe":
+        return None
+    return Advice("none of the report's five surfaces is like this one; the advice rests on the physics of section 3 alone", "a dielectric without a body, or a glossy one")
+
+
+RULES = (
+    flake_paint, coated, mirror_finish, nearly_smooth_metal, high_gloss, low_gloss_metal, low_gloss_dielectric, kind_open, nearest_sample, nearest_is_far,
+)  # fmt: skip
