@@ -6,7 +6,7 @@ n_half = 2/alpha² - 2, n_mirror = n_half/4.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan, cos, pi, radians, sin, sqrt
+from math import atan, cos, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
@@ -54,17 +54,17 @@ def start_values(model: Sum, material: Material) -> dict:
     for term in model.terms:
         if term.model.name == "mirror" and (flakes or coat_over_metal):
             own = {"n": (material.n or (COAT_N,)) if flakes else (COAT_N,), "k": (0.0,), "sigma": material.sigma or 0.0}
-        elif flakes:
-            own = _lobe(FLAKE_ALPHA, material.albedo or (FLAKE_SHARE,), 0.0, material)
+        elif flakes and "n" not in term.model.defaults():
+            own = _lobe(FLAKE_ALPHA, material.albedo or (FLAKE_SHARE,), 0.0)
         else:
-            own = _lobe(material.alpha or 0.15, reflectance(material), rise_of_fresnel(material), material)
+            own = _lobe(_width(material), reflectance(material), rise_of_fresnel(material))
             own |= {"albedo": material.albedo or (0.18,), "spread": min(atan((material.alpha or 0.5) / sqrt(2)), 1.2)}
             own |= {"n": material.n or (1.5,), "k": material.k or (0.0,), "sigma": _sigma(term.model.name, material), "slope": material.slope or 0.075}
-            if material.kind not in ("metal", "dielectric") and material.n is None and len(model.terms) == 1:
-                own |= {"n": (3.18,), "k": (4.41,)}  # the metal of two open kinds: chromium, mid-way
+            if open_metal(model, material):
+                own |= {"n": (3.18,), "k": (4.41,)}  # chromium, in the middle of the metals
         lobe = term.model.name
         if lobe == "lafortune":
-            own = {"ks": own["phong_ks"], "tilt": own["tilt"], "exponent": own["mirror_exponent"]}
+            own = {"ks": own["lafortune_ks"], "tilt": own["tilt"], "exponent": own["mirror_exponent"]}
         elif lobe == "phong":
             own = {"ks": own["phong_ks"], "exponent": own["mirror_exponent"]}
         elif lobe == "phong-lewis":
@@ -76,6 +76,15 @@ def start_values(model: Sum, material: Material) -> dict:
             if given is not None:
                 values[f"{term.label}.{parameter.name}"] = _within(parameter, given)
     return values
+
+
+def open_metal(model: Sum, material: Material) -> bool:
+    """Whether this sum stands for the metal of a surface whose kind is open."""
+    return material.kind not in ("metal", "dielectric") and material.n is None and len(model.terms) == 1 and material.appearance != "black"
+
+
+def _width(material: Material) -> float:
+    return material.alpha or (0.01 if material.finish == "mirror" else 0.15)
 
 
 def reflectance(material: Material) -> tuple[float, ...]:
@@ -93,18 +102,22 @@ def rise_of_fresnel(material: Material) -> float:
     return float(high / low) if low > 0 else 1.0
 
 
-def _lobe(alpha: float, f0, rise: float, material: Material) -> dict:
+def _lobe(alpha: float, f0, rise: float) -> dict:
     """Widths and heights of one lobe in each law's own words."""
     half = max(2 / alpha**2 - 2, 0.4)
     mirror_exponent = max(half / 4, 0.3)
     growth = 14.5 * rise if rise else 1.0  # facets grow as 1/cos² at the mirror, times Fresnel; flakes under a coat not at all
+    tilt = _tilt(growth, mirror_exponent)
+    peak = tuple(each / (4 * pi * alpha**2) for each in f0)
+    at_normal = min(1.0, 1 / tan(tilt)) ** mirror_exponent  # of a Lafortune lobe's greatest value
     return {
         "alpha": alpha,
         "rho_s": tuple(min(each, 1.0) for each in f0),
-        "phong_ks": tuple(each / (4 * pi * alpha**2) for each in f0),
+        "phong_ks": peak,
+        "lafortune_ks": tuple(each / at_normal for each in peak),
         "half_exponent": half,
         "mirror_exponent": mirror_exponent,
-        "tilt": _tilt(growth, mirror_exponent),
+        "tilt": tilt,
     }
 
 
@@ -129,7 +142,7 @@ def _sigma(name: str, material: Material) -> float:
 
 def _within(parameter, given):
     """Inside the bounds of the law; a tuple stays one value per channel."""
-    clip = lambda value: float(min(max(value, parameter.low), parameter.high))  # noqa: E731
+    clip = lambda value: float(min(max(value, parameter.least), parameter.high))  # noqa: E731
     if isinstance(given, tuple):
         given = tuple(clip(value) for value in given)
         return given if parameter.per_channel and len(set(given)) > 1 else given[len(given) // 2]
@@ -139,10 +152,10 @@ def _within(parameter, given):
 def rise(model: Sum, values: Mapping) -> Rise:
     """The growth of these values from 10 to 75 degrees, in the middle channel."""
     single = {key: value[len(value) // 2] if isinstance(value, tuple) else value for key, value in values.items()}
-    reflected = np.arange(0.0, 90.0)
+    reflected = np.arange(0.0, 90.0)  # one value a degree
     scans = [model(rows(in_plane(angle, reflected)), single)[:, 0] for angle in (10.0, 75.0)]
-    at = [float(scan[int(angle)]) for scan, angle in zip(scans, (10, 75))]
+    at = [float(scan[angle]) for scan, angle in zip(scans, (10, 75))]
     top = [float(scan.max()) for scan in scans]
     spike = [float(np.squeeze(model.mirror(in_plane(angle, angle), single))) for angle in (10.0, 75.0)] if model.has_mirror else [0.0, 0.0]
-    ratio = lambda pair: pair[1] / pair[0] if pair[0] > 0 else None  # noqa: E731
+    ratio = lambda pair: pair[1] / pair[0] if pair[0] > 1e-12 else None  # noqa: E731
     return Rise(ratio(at), ratio(top), ratio(spike))

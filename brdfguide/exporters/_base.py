@@ -191,8 +191,8 @@ def check_values(model: Sum, values: Mapping, channels: int) -> dict:
             raise InputError(f"{key} is no parameter of {model.name}; there are: {', '.join(model.parameters)}")
         parameter = model.parameters[key]
         array = np.asarray(value, float)
-        if not np.all(np.isfinite(array)) or np.any(array < parameter.low) or np.any(array > parameter.high):
-            raise InputError(f"{key} = {_spelt(array)} is outside {parameter.low:g}..{parameter.high:g}")
+        if not np.all(np.isfinite(array)) or np.any(array < parameter.least) or np.any(array > parameter.high):
+            raise InputError(f"{key} = {_spelt(array)} is outside {parameter.least:g}..{parameter.high:g}")
         if array.ndim and array.size not in (1, channels):
             raise InputError(f"{key} has {array.size} values for {channels} channels")
         checked[key] = array if array.ndim and array.size > 1 else float(np.ravel(array)[0])

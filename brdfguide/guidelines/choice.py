@@ -3,7 +3,7 @@
 The most complex model is never preferred for being complex: the report's metallic paint is served best by Phong's.
 """
 
-from math import degrees
+from math import degrees, pi
 
 from ..material import Material
 from ._base import Advice, rule
@@ -22,13 +22,22 @@ def body(material: Material) -> str:
     return "" if material.subsurface == "none" else "lambertian+"
 
 
+def waves_show(material: Material) -> bool:
+    """Whether sigma is known and near enough to the wavelength for wave optics to differ from facets (g below 20)."""
+    if material.sigma is None or material.emerges is False:
+        return False
+    return bool(material.emerges) or (4 * pi * material.sigma / (material.wavelength or 0.55)) ** 2 < 20
+
+
 @rule("4.5, 5.2")
 def flake_paint(material: Material) -> Advice | None:
     """Flakes under a coat: a general lobe plus the coat's mirror."""
     if material.subsurface != "lobe":
         return None
-    says = "Phong's lobe for the flakes, as the report found, and a Fresnel mirror for the coat; Lafortune's lobe matches, Ward's is third"
-    return Advice(says, "metallic flake", prefers=("phong+mirror", "lafortune+mirror", "phong-lewis+mirror", "ward+mirror"))
+    coat = "mirror" if material.finish in (None, "mirror", "high gloss") else "ggx"
+    what = "a Fresnel mirror for the coat" if coat == "mirror" else f"a rough interface for the {material.finish} coat"
+    says = f"Phong's lobe for the flakes, as the report found, and {what}; Lafortune's lobe matches, Ward's is third"
+    return Advice(says, "metallic flake", prefers=tuple(f"{lobe}+{coat}" for lobe in ("phong", "lafortune", "phong-lewis", "ward")))
 
 
 @rule("5.2")
@@ -36,7 +45,7 @@ def mirror_finish(material: Material) -> Advice | None:
     """A mirror finish: Fresnel's equations, or a constant on a metal."""
     if material.finish != "mirror" or material.subsurface == "lobe" or material.kind is None:
         return None
-    rough = (f"{body(material)}he-torrance",) if material.sigma is not None else ()
+    rough = (f"{body(material)}he-torrance",) if waves_show(material) else ()
     what = "Fresnel's mirror, or a constant on this metal" if material.kind == "metal" else "Fresnel's mirror"
     says = what + (" over the Lambertian body" if material.subsurface == "lambertian" else "")
     return Advice(says, "a mirror finish", prefers=(f"{body(material)}mirror", *rough))
@@ -66,8 +75,8 @@ def low_gloss_metal(material: Material) -> Advice | None:
     if material.kind != "metal" or material.finish in ("mirror", "high gloss"):
         return None
     names = ("ward", "he-torrance", "ggx", "beckmann")
-    if material.emerges or (material.sigma is not None and material.emerges is not False):
-        says = "He-Torrance, since a mirror image emerges" if material.emerges else "He-Torrance, since sigma is known"
+    if material.emerges or waves_show(material):
+        says = "He-Torrance, since a mirror image emerges" if material.emerges else "He-Torrance, since sigma is near the wavelength"
         return Advice(f"{says}; Ward is enough for the lobe alone", "a metal below high gloss", prefers=("he-torrance", "ward", "ggx"))
     return Advice("Ward; facet lobes grow more toward grazing, as metals do", "a metal below high gloss, no mirror image known", prefers=names)
 
@@ -78,12 +87,13 @@ def low_gloss_dielectric(material: Material) -> Advice | None:
     if material.kind != "dielectric" or material.subsurface == "lobe" or material.finish in ("mirror", "high gloss"):
         return None
     drops = {lobe: "grows too little toward grazing for a dielectric (sections 4.2, 4.3)" for lobe in ("ward", "phong", "phong-lewis", "blinn")}
-    if material.sigma is not None:
-        says, lobes = "He-Torrance, since sigma is known", ("he-torrance", "ggx", "lafortune")
+    if waves_show(material):
+        says, lobes = "He-Torrance, since sigma is known and near the wavelength", ("he-torrance", "ggx", "lafortune")
     elif material.finish == "matt" and material.subsurface == "lambertian":
         says, lobes = "GGX, with Fresnel's rise; on paper Lafortune's lobe fitted best, but its numbers want a measurement", ("ggx", "lafortune", "he-torrance")
     else:
-        says = "a facet lobe with Fresnel's factor; He-Torrance needs a sigma, which nothing observed tells"
+        known = "at a sigma so far above the wavelength He-Torrance is the same surface" if material.sigma else "He-Torrance needs a sigma, which nothing observed tells"
+        says = f"a facet lobe with Fresnel's factor; {known}"
         lobes = ("ggx", "he-torrance", "lafortune")
     names = [f"{body(material)}{lobe}" for lobe in lobes]
     return Advice(says, "a dielectric below high gloss", prefers=tuple(names), drops=drops)

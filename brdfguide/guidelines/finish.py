@@ -46,7 +46,7 @@ def sources(material: Material) -> list[tuple[float, str]]:
 @rule("5.2")
 def roughness_from_stylus(material: Material) -> Advice | None:
     """A stylus gives sigma and tau, within its band of scales."""
-    if not (material.sigma and material.tau):
+    if not (material.sigma and material.tau) or "sigma" in material.filled_by:
         return None
     slope = material.sigma / material.tau
     says = (
@@ -55,6 +55,38 @@ def roughness_from_stylus(material: Material) -> Advice | None:
     )
     band = f"cut-off {material.cutoff:g} µm" if material.cutoff else "no cut-off given; light sees the finest, steepest scale, which a long cut-off hides"
     return Advice(says, f"stylus; {band}", sets={"slope": slope})
+
+
+@rule("5.2, Figure 14")
+def stylus_against_emergence(material: Material) -> Advice | None:
+    """The mirror image that sigma and tau predict, against the one that was seen."""
+    if material.emerges is None or material.sigma is None or not (material.tau or material.alpha):
+        return None
+    tau = material.tau or 2 * material.sigma / material.alpha
+    if not 1e-3 <= material.sigma / tau <= roughness.STEEPEST:
+        return None
+    predicted = roughness.emergence_angle(material.sigma, tau, wavelength(material), material.solid_angle)
+    seen = degrees(material.emergence) if material.emerges else None
+    if (predicted is None or predicted > 80) and (seen is None or seen > 85):
+        return None
+    if predicted is not None and seen is not None and abs(predicted - seen) <= 8:
+        return Advice(f"the mirror image should appear from {predicted:.0f}° on, and does from {seen:g}°", "stylus and eye agree")
+    expected = "at no angle" if predicted is None else f"from {predicted:.0f}° on"
+    says = f"a mirror image is expected {expected}, and was seen {'at none' if seen is None else f'from {seen:g}°'}; the stylus is used"
+    return Advice(says, "stylus against emergence", conflict=True)
+
+
+@rule("5.2, Figure 14")
+def contour_from_half_a_stylus(material: Material) -> Advice | None:
+    """sigma or tau alone, with the emergence angle, gives the other."""
+    if material.emergence is None or (material.sigma is None) == (material.tau is None):
+        return None
+    angle, light = degrees(material.emergence), wavelength(material)
+    if material.tau is None:
+        tau = roughness.tau_for_sigma(angle, material.sigma, light, material.solid_angle)
+        return Advice(f"tau {tau:.3g} µm on the contour of {angle:g}°", f"sigma {material.sigma:g} µm", sets={"tau": tau, "slope": material.sigma / tau})
+    sigma = roughness.sigmas_for_tau(angle, material.tau, light, material.solid_angle)[0]
+    return Advice(f"sigma {sigma:.3g} µm on the contour of {angle:g}°", f"tau {material.tau:g} µm", sets={"sigma": sigma, "slope": sigma / material.tau})
 
 
 @rule("5")
@@ -105,7 +137,7 @@ def roughness_combined(material: Material) -> Advice | None:
 @rule("5.2, Eq. 3, Figure 14")
 def roughness_from_emergence(material: Material) -> Advice | None:
     """The angle at which a mirror image appears fixes sigma along a contour; a slope fixes the point on it."""
-    if material.emergence is None or material.sigma is not None:
+    if material.emergence is None or material.sigma is not None or material.tau is not None:
         return None
     angle, light = degrees(material.emergence), wavelength(material)
     slope = material.alpha / 2 if material.alpha else material.slope or TYPICAL_SLOPE
@@ -249,7 +281,7 @@ def _sigma_for(loss: float, material: Material) -> float:
 
 
 RULES = (
-    roughness_from_stylus, roughness_from_gloss, gloss_of_metal, width_of_highlight, roughness_combined, roughness_from_emergence,
+    roughness_from_stylus, stylus_against_emergence, contour_from_half_a_stylus, roughness_from_gloss, gloss_of_metal, width_of_highlight, roughness_combined, roughness_from_emergence,
     formula_beside_criterion, never_a_mirror_image, emergence_on_matt, mirror_that_never_shows, finish_against_width, width_from_finish,
     width_from_slope, usual_width, smooth_limit, only_slope_matters, slope_beyond_theory, emergence_has_a_colour,
 )  # fmt: skip

@@ -29,6 +29,12 @@ class Parameter:
     free: bool = True  # False: kept at its value unless the user frees it
     meaning: str = ""
     starts: tuple[float, ...] = ()  # values worth starting a fit from; empty: spread over the bounds
+    given_low: float | None = None  # a value that is given, not fitted, may go down to here: n of a metal beside its k
+
+    @property
+    def least(self) -> float:
+        """The lower bound of a value that is given."""
+        return self.low if self.given_low is None else self.given_low
 
 
 @dataclass(frozen=True)
@@ -175,6 +181,6 @@ class Sum:
 
 def bounded(parameter: Parameter, value: float) -> float:
     """`value`, if it lies within the bounds where the law holds. Raises InputError otherwise."""
-    if not parameter.low <= value <= parameter.high:
-        raise InputError(f"{parameter.name} = {value:g} is outside {parameter.low:g}..{parameter.high:g} {parameter.unit}".rstrip())
+    if not parameter.least <= value <= parameter.high:
+        raise InputError(f"{parameter.name} = {value:g} is outside {parameter.least:g}..{parameter.high:g} {parameter.unit}".rstrip())
     return value

@@ -12,7 +12,7 @@ from ..geometry import Geometry
 from ._base import Parameter
 
 INDEX = (
-    Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, per_channel=True, meaning="refractive index; of a metal with k = 0 an equivalent one", starts=(1.5, 4.0, 20.0)),
+    Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, given_low=0.01, per_channel=True, meaning="refractive index; of a metal with k = 0 an equivalent one", starts=(1.5, 4.0, 20.0)),
     Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
     Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1 for a calibrated measurement of a bare interface"),
 )

@@ -74,7 +74,7 @@ MODEL = Model(
     parameters=(
         Parameter("sigma", 0.3, 1e-3, 50.0, "um", log=True, meaning="rms height", starts=(0.05, 0.2, 0.8)),
         Parameter("slope", 0.1, 1e-3, 1.0, log=True, meaning="sigma/tau; half of Beckmann's alpha", starts=(0.02, 0.05, 0.1, 0.2)),
-        Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, per_channel=True, meaning="refractive index", starts=(1.5, 4.0, 20.0)),
+        Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, given_low=0.01, per_channel=True, meaning="refractive index", starts=(1.5, 4.0, 20.0)),
         Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
         Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
     ),

@@ -32,7 +32,7 @@ MODEL = Model(
     roles=("mirror",),
     mirror=mirror,
     parameters=(
-        Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, per_channel=True, meaning="refractive index", starts=(1.5,)),
+        Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, given_low=0.01, per_channel=True, meaning="refractive index", starts=(1.5,)),
         Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
         Parameter("sigma", 0.0, 0.0, 1.0, unit="um", meaning="rms height of the roughness", starts=(0.02, 0.1)),
     ),
