@@ -1,6 +1,7 @@
 """Results as text: plain aligned columns that a script can cut and a person can read."""
 
 import sys
+from dataclasses import replace
 from textwrap import dedent
 
 
@@ -45,3 +46,20 @@ def model_text(model) -> str:
     )
     broken = "".join(f"\nbreaks {name}: {why}" for name, why in entry["breaks"].items())
     return f"{entry['law']}\n\n{table}{broken}"
+
+
+def inner(field) -> tuple:
+    """The fields of a group, named with a dot; none for `sources`, whose keys are those of the file."""
+    return () if field.name == "sources" else tuple(replace(each, name=f"{field.name}.{each.name}") for each in field.fields)
+
+
+def takes(field) -> str:
+    """What a field of a YAML file may hold, in short."""
+    if field.kind == "word":
+        return " | ".join(field.choices)
+    if field.kind in ("group", "groups", "flag", "text", "texts"):
+        return {"group": "", "groups": "list", "flag": "true | false", "text": "text", "texts": "text, or a list"}[field.kind]
+    low = field.above if field.above is not None else field.low
+    bounds = f" {low:g}..{field.high:g}" if low is not None and field.high is not None else ""
+    count = "number" if field.kind == "number" else "1 or 3 numbers"
+    return count + bounds + (f" {field.unit}" if field.unit else "") + "".join(f" | {choice}" for choice in field.choices)

@@ -1,0 +1,46 @@
+"""`brdfguide recommend INPUT...`: a model with parameters for a described surface, a measured one, or both."""
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Exit, Option
+
+from ._options import JsonOption, NoTimingOption, QuietOption, note, print_json
+
+EXAMPLES = "Examples: brdfguide recommend porcelain | brdfguide recommend my_surface.yaml scan.csv --explain"
+
+
+def recommend(
+    inputs: Annotated[list[str], Argument(metavar="INPUT...", help="A description (YAML, - for standard input, or a name of `brdfguide materials`), a measurement, or both.")],
+    models: Annotated[str | None, Option("--models", help="Try these sums, such as ggx,lambertian+ward.")] = None,
+    explain: Annotated[bool, Option("--explain", help="Every rule, also those that were silent.")] = False,
+    anyway: Annotated[bool, Option("--anyway", help="Answer also outside the guide's domain.")] = False,
+    no_timing: NoTimingOption = False,
+    json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Recommend reflectance models with start values, and say why, how surely and what they cannot do."""
+    from .. import material, shelf
+    from .. import recommend as advisor
+    from ..report import advice
+
+    names = [each.strip() for each in models.split(",")] if models else None
+    described, measured = [], []
+    for each in inputs:
+        if each == "-" or each.endswith((".yaml", ".yml")):
+            described.append(material.read_material(each))
+        elif Path(each).exists() or "." in Path(each).name or "/" in each:
+            measured.append(each)
+        else:
+            described.append(material.read_material(shelf.path(each)))
+    answers = [advisor.recommend(each, anyway, names) for each in described]
+    documents = [advice.document(each, not no_timing) for each in answers]
+    if json:
+        print_json(documents[0] if len(documents) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": documents})
+    else:
+        print("\n\n".join(advice.text(each, explain, not no_timing) for each in answers))
+    outside = [each for each in answers if not each.candidates]
+    for each in outside:
+        note(f"brdfguide: {each.material.name or 'this surface'} is outside the guide's domain: {each.reasons[0].says}; --anyway answers all the same", quiet)
+    if outside:
+        raise Exit(1)
