@@ -17,6 +17,7 @@ FLOORS = tuple(
         geometry
         material
         roughness
+        shelf
         special
         substances
         yaml_schema
@@ -28,6 +29,7 @@ FLOORS = tuple(
         gloss
         hemisphere
         measurement
+        optical_constants
         optics
         sampling
         """,
@@ -52,6 +54,7 @@ FLOORS = tuple(
         saved
         scene
         screens
+        starting
         starts
         uncertainty
         validation
