@@ -245,3 +245,12 @@ def _grid(theta_i, low, high):
 def _positive(values):
     """Zeros as NaN, so that a log axis leaves them out."""
     return np.where(values > 0, values, np.nan)
+
+
+def page_figures(ranking, measurement: Measurement) -> list[tuple[bytes, str]]:
+    """What a report page shows of a ranking: (SVG, caption) of the lobes and of error against run time."""
+    lines = lines_of(ranking)
+    return [
+        (style.render(lobes(chosen(lines), measurement)), "BRDF against reflection angle, on a log axis as the guide plots it, and what each model leaves over."),
+        (style.render(cost(lines)), "Error against run time. A model on the front is beaten by no other in both."),
+    ]
