@@ -13,6 +13,7 @@ from .misfit import SMALLEST, Layout, Metric, Misfit, evaluate, metric
 from .models import Sum
 
 SEARCH_SAMPLES = 1200  # directions on which the starts are followed
+SEARCH_CHANNELS = 4
 POLISH_SAMPLES = 24_000  # directions on which the answer is settled; a larger table is thinned, its error is not
 ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
 
@@ -60,7 +61,7 @@ def label(model: Sum) -> str:
 def fit(model: Sum, measurement: Measurement, options: Options = Options()) -> Fit:
     """The values of `model` closest to `measurement`, from the best two starts of a grid and from the user's own.
 
-    Raises InputError where a fixed or start value names no parameter, and where nothing can be fitted.
+    Raises InputError where nothing can be fitted.
     """
     began = perf_counter()
     scale = metric(options.metric)
@@ -72,17 +73,13 @@ def fit(model: Sum, measurement: Measurement, options: Options = Options()) -> F
     layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
     weights = sample_weights(used, options.weights)
 
-    search = starts.spread_rows(used, SEARCH_SAMPLES)
-    found, evaluations = [], 0
-    for start in starts.grid_starts(layout, used):
-        found.append(_descend(layout, used[search], scale, weights[search], layout.encode(start), 1e-6))
-        evaluations += found[-1].evaluations
-    found.sort(key=lambda minimum: minimum.cost)
+    found, evaluations = _search(layout, used, scale, weights)
     settle = starts.spread_rows(used, POLISH_SAMPLES)
+    start = found[0][0], _spread_over_channels(found[0][1], layout.channels)
     for _ in range(ROBUST_ROUNDS if options.robust else 1):
-        best = _descend(layout, used[settle], scale, weights[settle], (found[0].shared, found[0].own), 1e-10)
+        best = _descend(layout, used[settle], scale, weights[settle], start, 1e-10)
         evaluations += best.evaluations
-        found[0] = best
+        start = best.shared, best.own
         if options.robust:
             weights = _robust(weights, Misfit(layout, used, scale, weights)(best.shared, best.own, False), used)
     values = layout.decode(best.shared, best.own)
@@ -93,7 +90,7 @@ def fit(model: Sum, measurement: Measurement, options: Options = Options()) -> F
     correlation, score = uncertainty.serial_correlation(part, orders)
     stderr = uncertainty.standard_errors(layout, values, best.normal, best.cost, part, correlation)
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
-    warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found, search)) if warning]
+    warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found)) if warning]
     if not best.converged:
         warnings.append(Finding("not-converged", "the search was still moving when it was stopped", "warning", "do not use the values"))
     return Fit(
@@ -103,7 +100,14 @@ def fit(model: Sum, measurement: Measurement, options: Options = Options()) -> F
 
 
 def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = Options(), progress: Callable[[str], None] = lambda name: None) -> tuple[Fit, ...]:
-    """One fit for each model; `progress` hears each name before its fit begins."""
+    """One fit for each model; `progress` hears each name before its fit begins.
+
+    Raises InputError where a fixed or start value names no parameter of any of them.
+    """
+    models = tuple(models)
+    for name in (*options.fixed, *options.start):
+        if not any(model.has(name) for model in models):
+            raise choices("parameter of any candidate", name, sorted({key for model in models for key in model.parameters}))
     fits = []
     for model in models:
         progress(label(model))
@@ -146,14 +150,37 @@ def incidence_weights(measurement: Measurement) -> np.ndarray:
 
 
 def _with_options(model: Sum, options: Options) -> Sum:
-    """The sum with the user's fixed and start values; a value without a term's name means every term that has it."""
-    given = {}
-    for kind, wanted in (("fixed", options.fixed), ("start", options.start)):
-        given[kind] = {}
-        for name, value in wanted.items():
-            given[kind].update({key: value for key in model.parameters if name in (key, key.rpartition(".")[2])})
-    free = tuple(key for key in model.free if key not in given["fixed"])
-    return replace(model, fixed={**model.fixed, **given["fixed"]}, start={**model.start, **given["start"]}, free=free)
+    """The sum with those of the user's fixed and start values that it has; `fit_all` refuses a name that none has."""
+    own = lambda wanted: model.qualified({name: value for name, value in wanted.items() if model.has(name)})  # noqa: E731
+    fixed, start = own(options.fixed), own(options.start)
+    free = tuple(key for key in model.free if key not in fixed)
+    return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
+
+
+def _search(layout: Layout, measurement: Measurement, scale: Metric, weights):
+    """Follows the grid's starts on few directions and channels: ends (shared, own, rms), best first, and the evaluations spent."""
+    picked = few_channels(layout.channels)
+    narrow = replace(layout, channels=len(picked))
+    thin = measurement.of_channels(picked)
+    rows = starts.spread_rows(thin, SEARCH_SAMPLES)
+    part, part_weights = thin[rows], weights[rows][:, picked]
+    ends, evaluations = [], 0
+    for start in starts.grid_starts(narrow, thin):
+        end = _descend(narrow, part, scale, part_weights, narrow.encode(start), 1e-6)
+        evaluations += end.evaluations
+        ends.append((end.shared, end.own, float(np.sqrt(end.cost / max(np.count_nonzero(part.usable), 1)))))
+    return sorted(ends, key=lambda end: end[2]), evaluations
+
+
+def few_channels(count: int) -> np.ndarray:
+    """Numbers of at most four channels, spread over the spectrum."""
+    return np.unique(np.linspace(0, count - 1, min(count, SEARCH_CHANNELS)).round().astype(int))
+
+
+def _spread_over_channels(own, channels: int):
+    """Own coordinates of a few channels, interpolated to all."""
+    at = few_channels(channels)
+    return np.stack([np.interp(np.arange(channels), at, column) for column in own.T], axis=1) if own.shape[1] else np.zeros((channels, 0))
 
 
 def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float) -> levenberg.Minimum:
@@ -170,14 +197,13 @@ def _robust(weights, residuals, measurement: Measurement):
     return weights / (1 + (residuals / max(ROBUST_WIDTH * spread, 1e-12)) ** 2)
 
 
-def _disagreement(layout: Layout, found, search) -> Finding | None:
+def _disagreement(layout: Layout, ends) -> Finding | None:
     """Two starts that ended equally well in different places."""
-    if len(found) < 2:
+    if len(ends) < 2:
         return None
-    best, other = found[0], found[1]
-    error, worse = (np.sqrt(each.cost / max(len(search) * layout.channels, 1)) for each in (best, other))
-    apart = np.max(np.abs(best.shared - other.shared), initial=0.0)
-    if apart < 0.1 or worse > 1.05 * error + 1e-6:
+    (best, _, error), (other, _, worse) = ends[:2]
+    if np.max(np.abs(best - other), initial=0.0) < 0.1 or worse > 1.02 * error + 1e-6:
         return None
-    places = [", ".join(f"{key} {layout.decode(m.shared, m.own)[key]:.3g}" for key in layout.shared) for m in (best, other)]
+    own = np.zeros((layout.channels, len(layout.own)))
+    places = [", ".join(f"{key} {layout.decode(shared, own)[key]:.3g}" for key in layout.shared) for shared in (best, other)]
     return Finding("starts-disagree", f"two starts ended equally well in different places: {places[0]}; or {places[1]}", "warning", "look at both")

@@ -36,8 +36,9 @@ class Normal:
 
         A direction that the residuals do not depend on gets an enormous variance, never an arbitrary one.
         """
-        inverse_own = _variances(self.own)
-        shared = _variances(self.shared - np.einsum("cpq,cqr,csr->ps", self.between, inverse_own, self.between))
+        inverse_own = _variances(self.own, np.einsum("cqq->cq", self.own))
+        reduced = self.shared - np.einsum("cpq,cqr,csr->ps", self.between, inverse_own, self.between)
+        shared = _variances(reduced, np.diag(self.shared))
         lever = inverse_own @ np.swapaxes(self.between, 1, 2)
         return shared, inverse_own + lever @ shared @ np.swapaxes(lever, 1, 2)
 
@@ -180,15 +181,14 @@ def _inverse(matrix):
     return inverse * outer
 
 
-def _variances(matrix):
-    """Inverse for a covariance: eigenvalues below rounding count as 1e-16 of the scaled matrix."""
+def _variances(matrix, diagonal):
+    """Inverse for a covariance: eigenvalues that rounding could have made count as 1e-15 of the scaled matrix."""
     if matrix.shape[-1] == 0:
         return matrix
-    diagonal = np.einsum("...ii->...i", matrix)
-    scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1e-300))
+    scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
     outer = scale[..., :, None] * scale[..., None, :]
     values, vectors = np.linalg.eigh(matrix * outer)
-    return np.einsum("...ij,...j,...kj->...ik", vectors, 1 / np.maximum(values, 1e-16), vectors) * outer
+    return np.einsum("...ij,...j,...kj->...ik", vectors, 1 / np.maximum(values, 1e-15), vectors) * outer
 
 
 def _largest(step, at) -> float:

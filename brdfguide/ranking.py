@@ -65,7 +65,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
         fit = fits[index]
         behind, error = difference(fit.residuals, best.residuals, segments)
         apart = float(np.sqrt(np.nanmean((fit.residuals - best.residuals) ** 2)))
-        tied = fit is best or behind < REAL * error or apart < noise
+        tied = fit is best or apart < noise or behind < REAL * error
         front = not any(_dominates(errors[other], times[other], errors[index], times[index], metric) for other in order)
         rows.append(Row(
             fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, measurement), errors[index],
@@ -122,23 +122,27 @@ def segments_of(measurement: Measurement) -> np.ndarray:
 
 
 def difference(one, best, segments) -> tuple[float, float]:
-    """How far one rms lies behind the other, with a standard error that lets whole segments of neighbours vary.
+    """How far one rms lies behind the other, and the standard error of that.
 
-    rms_a - rms_b = mean(a² - b²)/(rms_a + rms_b); the standard error of the mean is taken between segments.
+    rms_a - rms_b = mean(a² - b²)/(rms_a + rms_b)   and   a² - b² = (a - b)² + 2 b (a - b)
+
+    The two models are given and a - b with them; what chance could have made otherwise is the best model's residual b.
+    So the error is that of the mean of 2 b (a - b), taken between whole segments of neighbours, which err together.
     """
-    squares = one**2 - best**2
-    seen = np.isfinite(squares)
+    apart = one - best
+    chance = 2 * best * apart
+    seen = np.isfinite(chance)
     total = float(np.sqrt(np.mean(one[seen] ** 2)) + np.sqrt(np.mean(best[seen] ** 2)))
     if total == 0:
         return 0.0, 0.0
-    sums = np.bincount(segments, np.where(seen, squares, 0.0).sum(axis=1))
+    count = np.count_nonzero(seen)
+    mean = float(np.mean(apart[seen] ** 2 + chance[seen]))
+    sums = np.bincount(segments, np.where(seen, chance, 0.0).sum(axis=1))
     counts = np.bincount(segments, seen.sum(axis=1))
-    filled = counts > 0
-    sums, counts = sums[filled], counts[filled]
-    mean = sums.sum() / counts.sum()
+    sums, counts = sums[counts > 0], counts[counts > 0]
     groups = len(sums)
-    spread = np.sqrt(np.sum((sums - mean * counts) ** 2) * groups / max(groups - 1, 1)) / counts.sum()
-    return float(mean / total), float(spread / total)
+    spread = np.sqrt(np.sum((sums - sums.sum() / count * counts) ** 2) * groups / max(groups - 1, 1)) / count
+    return mean / total, float(spread / total)
 
 
 def noise_of(residuals, measurement: Measurement) -> float:

@@ -86,7 +86,7 @@ def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[
         value, error = np.atleast_1d(values[key]), np.atleast_1d(errors[key])
         span = parameter.high - parameter.low
         for end, bound in (("low", parameter.low), ("high", parameter.high)):
-            at = np.abs(value - bound) <= 1e-6 * (abs(bound) if parameter.log and bound else span)
+            at = np.abs(value - bound) <= 1e-9 * abs(bound)
             if np.any(at) and not (parameter.linear and end == "low"):
                 found.append(Finding(f"at-bound:{key}", f"{key} ended at its {end} bound {bound:g}", "warning", "its true value may lie beyond"))
             elif np.all(at):

@@ -13,7 +13,6 @@ from .ranking import Ranking
 
 FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
 SAMPLES = 800  # directions for the repeated fits
-CHANNELS = 4  # spread over the spectrum
 IMITATION = 2.5  # held-out error over fitted error beyond which a model is said to imitate (ours)
 
 
@@ -34,7 +33,7 @@ def held_out(fit: Fit, measurement: Measurement, options: Options = Options()) -
     if len(folds) < 2:
         return None
     layout = Layout(fit.model, used.brdf.shape[1], options.shape_per_channel)
-    picked = _channels(measurement)
+    picked = fitting.few_channels(measurement.brdf.shape[1])
     values = {key: value[picked] if np.ndim(value) else value for key, value in fit.values.items()}
     start = layout.encode(values)
     low, high = layout.bounds(layout.shared)
@@ -88,12 +87,7 @@ def _thinned(measurement: Measurement) -> Measurement:
     """Few enough directions and channels for repeated fits."""
     seen = measurement[np.any(measurement.usable, axis=1)]
     rows = starts.spread_rows(seen, SAMPLES)
-    return seen[rows].of_channels(_channels(measurement))
-
-
-def _channels(measurement: Measurement) -> np.ndarray:
-    count = measurement.brdf.shape[1]
-    return np.unique(np.linspace(0, count - 1, min(count, CHANNELS)).round().astype(int))
+    return seen[rows].of_channels(fitting.few_channels(measurement.brdf.shape[1]))
 
 
 def _folds(angles) -> list[np.ndarray]:

@@ -39,6 +39,7 @@ FLOORS = tuple(
         models
         """,
         """
+        compare
         costs
         examine
         fitting

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -19,20 +20,9 @@ def print_json(document: dict) -> None:
     """One JSON object; NaN and infinity are null, since JSON has neither."""
     import json
 
+    from ..report.plain import plain
+
     print(json.dumps(plain(document), indent=2, allow_nan=False))
-
-
-def plain(value):
-    """`value` with arrays as lists, and null for what is not finite."""
-    if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if hasattr(value, "tolist"):
-        return plain(value.tolist())
-    if isinstance(value, float) and not (abs(value) < float("inf")):
-        return None
-    return value
 
 
 def note(text: str, quiet: bool = False) -> None:
@@ -65,3 +55,25 @@ def write_whole(path: Path, content: bytes | str, *, force: bool = True) -> None
     except OSError as error:
         partial.unlink(missing_ok=True)
         raise InputError(f"cannot write {path}: {error.strerror}") from None
+
+
+@contextmanager
+def progress(steps: int, quiet: bool = False):
+    """A function that names each step as it begins; draws a bar on a terminal's stderr and nothing elsewhere."""
+    if quiet or not on_terminal(sys.stderr):
+        yield lambda what: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    look = (BarColumn(bar_width=24), TextColumn("{task.description}"), TimeElapsedColumn())
+    with Progress(*look, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=steps)
+        done = -1
+
+        def tell(what: str) -> None:
+            nonlocal done
+            done += 1
+            bar.update(task, description=what, completed=done)
+
+        yield tell

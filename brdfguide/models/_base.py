@@ -145,6 +145,20 @@ class Sum:
     def defaults(self) -> dict[str, float]:
         return {**{key: p.default for key, p in self.parameters.items()}, **self.start, **self.fixed}
 
+    def has(self, name: str) -> bool:
+        """Whether `alpha` or `ggx.alpha` is one of its parameters."""
+        return any(name in (key, key.rpartition(".")[2]) for key in self.parameters)
+
+    def qualified(self, values: Mapping) -> dict:
+        """`alpha` as `ggx.alpha`: a name without a term belongs to every term that has it. Raises InputError for others."""
+        out = {}
+        for name, value in values.items():
+            keys = [key for key in self.parameters if name in (key, key.rpartition(".")[2])]
+            if not keys:
+                raise choices(f"parameter of {self.name}", name, list(self.parameters))
+            out.update(dict.fromkeys(keys, value))
+        return out
+
     def of_term(self, term: Term, values: Mapping) -> dict:
         """The values of one term, under the bare names of its parameters."""
         prefix = term.label + "."

@@ -5,11 +5,12 @@ import numpy as np
 from ..fitting import Fit
 from ..measurement import Finding, Measurement
 from ..ranking import Ranking, Row
+from .plain import plain
 
 
 def fit_document(ranking: Ranking, measurement: Measurement, *, timing: bool = True) -> dict:
     """`brdfguide fit --json` (CLI contract)."""
-    return {
+    return plain({
         "schema": "brdfguide/fit/1",
         "data": data_block(measurement),
         "metric": ranking.metric,
@@ -20,7 +21,7 @@ def fit_document(ranking: Ranking, measurement: Measurement, *, timing: bool = T
         "winners": ranking.winners,
         "warnings": [finding(each) for each in ranking.warnings],
         "left_out": [],
-    }
+    })  # fmt: skip
 
 
 def data_block(measurement: Measurement) -> dict:
@@ -96,3 +97,15 @@ def _at(parameter, value, end: str) -> bool:
 
 def _round(value: float) -> float:
     return float(f"{value:.6g}")
+
+
+def residuals_csv(fit: Fit, measurement: Measurement) -> str:
+    """Directions, data, model and ln(model/data), a row for each direction and channel that was measured."""
+    geom = measurement.geom
+    wavelength = np.broadcast_to(np.atleast_1d(geom.wavelength) * 1e3, measurement.brdf.shape[1:])
+    lines = [f"# ln(model/data) of {fit.name} on {measurement.name}", "theta_i_deg,theta_r_deg,phi_deg,channel,wavelength_nm,brdf,model,ln_ratio"]
+    for row, column in zip(*np.nonzero(np.isfinite(fit.residuals))):
+        angles = ",".join(f"{float(angle[row, 0]):.9g}" for angle in (geom.theta_i_deg, geom.theta_r_deg, geom.phi_deg))
+        value, ratio = measurement.brdf[row, column], fit.residuals[row, column]
+        lines.append(f"{angles},{measurement.channels[column]},{wavelength[column]:g},{value:.9g},{value * np.exp(ratio):.9g},{ratio:.9g}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,38 @@
+"""Options about what a data file means, shared by the commands that read one."""
+
+from typing import Annotated
+
+from typer import Option
+
+from ..errors import InputError
+
+DATA = "Data"
+ColumnsOption = Annotated[str | None, Option("--columns", help="Roles of columns, e.g. theta_i=AOI,brdf=value.", rich_help_panel=DATA)]
+UnitOption = Annotated[str | None, Option("--unit", help="Unit of the angles: deg or rad.", rich_help_panel=DATA)]
+QuantityOption = Annotated[str | None, Option("--quantity", help="brdf, brdf-cos or reflectance-factor.", rich_help_panel=DATA)]
+MirrorSideOption = Annotated[str | None, Option("--mirror-side", help="positive, negative, phi=180 or phi=0.", rich_help_panel=DATA)]
+WavelengthOption = Annotated[str | None, Option("--wavelength", help="Channels [nm]: 550 or 450,550,650 or 400:700.", rich_help_panel=DATA)]
+InPlaneOption = Annotated[bool, Option("--in-plane", help="Only the plane of incidence.", rich_help_panel=DATA)]
+ThetaMaxOption = Annotated[float | None, Option("--theta-max", help="Leave out angles beyond this [deg].", rich_help_panel=DATA)]
+
+
+def read(data, columns=None, unit=None, quantity=None, mirror_side=None, wavelength=None, in_plane=False, theta_max=None):
+    """The measurement as these options say."""
+    from .. import formats
+
+    options = {"columns": columns, "unit": unit, "quantity": quantity, "mirror_side": mirror_side}
+    given = {name: value for name, value in options.items() if value is not None}
+    return formats.read(data, wavelength=wavelengths(wavelength), in_plane=in_plane, theta_max=theta_max, **given)
+
+
+def wavelengths(text: str | None):
+    """`450,550` as a list [nm], `400:700` as a range; None stays None. Raises InputError."""
+    if text is None:
+        return None
+    try:
+        if ":" in text:
+            low, high = (float(part) for part in text.split(":"))
+            return low, high
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise InputError(f"--wavelength {text}: wanted nanometres such as 550, 450,550,650 or 400:700") from None

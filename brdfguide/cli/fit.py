@@ -1,0 +1,55 @@
+"""`brdfguide fit DATA`: fits the candidate models to a measurement and ranks them."""
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from ._data import ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read
+from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
+from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
+
+EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit data.csv -m lambertian+ggx --json > fit.json"
+
+
+def fit(
+    data: Annotated[Path, Argument(help="Measured data, any format that `inspect` reads; - for standard input.")],
+    models: ModelsOption = None,
+    kind: KindOption = None,
+    metric: MetricOption = "ln",
+    weights: WeightsOption = "auto",
+    robust: RobustOption = False,
+    per_channel_shape: PerChannelOption = False,
+    fix: FixOption = None,
+    start: StartOption = None,
+    wavelength: WavelengthOption = None,
+    in_plane: InPlaneOption = False,
+    theta_max: ThetaMaxOption = None,
+    columns: ColumnsOption = None,
+    unit: UnitOption = None,
+    quantity: QuantityOption = None,
+    mirror_side: MirrorSideOption = None,
+    plot: Annotated[Path | None, Option("--plot", help="Draw data and models (png, svg or pdf).")] = None,
+    residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
+    json: JsonOption = False,
+    quiet: QuietOption = False,
+    no_timing: NoTimingOption = False,
+) -> None:
+    """Fit the candidate models to DATA and rank them, best first."""
+    from .. import recommend
+    from ..compare import compare
+    from ..report import document, ranking
+
+    options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
+    candidates = recommend.candidates(kind, expressions(models))
+    measurement = read(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max)
+    with progress(2 * len(candidates), quiet) as tell:
+        ranked = compare(measurement, candidates, options, tell)
+    result = document.fit_document(ranked, measurement, timing=not no_timing)
+    if residuals:
+        write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
+    if plot:
+        from ..report import plot as drawing
+
+        drawing.fit(result, ranked, measurement, plot)
+    print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet))
