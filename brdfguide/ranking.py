@@ -12,6 +12,7 @@ from .measurement import Finding, Measurement
 from .misfit import METRICS, evaluate
 
 REPEATS, TIMED_SAMPLES = 7, 4096
+DISTRUSTED = ("not-converged", "imitates")  # doubts with which no model is recommended
 REAL = 2.0  # standard errors from which a difference counts
 SEGMENTS = 8  # of each incidence angle: neighbours in one segment err together
 
@@ -72,7 +73,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
             behind, error, times[index], front, warnings=fit.warnings,
         ))  # fmt: skip
     rows = _with_ranks(rows)
-    recommended, because = _recommend(rows, noise)
+    recommended, because = recommend(rows)
     winners = {name: fits[min(range(len(fits)), key=lambda i: (np.isnan(errors[i][name]), errors[i][name]))].name for name in METRICS}
     return Ranking(tuple(rows), recommended, because, metric, noise, winners, _overall(rows, winners, noise))
 
@@ -178,25 +179,29 @@ def _with_ranks(rows: list[Row]) -> list[Row]:
     return [replace(row, rank=1 if row.tied and ties > 1 else place) for place, row in enumerate(rows, start=1)]
 
 
-def _recommend(rows: list[Row], noise: float) -> tuple[Row, str]:
-    """The simplest of the tied, and the reason in words."""
-    trusted = [row for row in rows if row.tied and row.fit.converged] or rows[:1]
-    pick = min(trusted, key=lambda row: (row.fit.free, row.ns_per_sample))
-    best = rows[0]
-    if pick is best:
-        others = [row for row in rows[1:]]
-        if not others:
-            return pick, "the only candidate"
-        tied = [row.fit.name for row in trusted if row is not pick]
-        if tied:
-            return pick, f"least error, and as simple as {', '.join(tied)}, which it cannot be told from"
-        return pick, f"least error; {others[0].fit.name} is {others[0].behind:.2g} ± {others[0].behind_se:.1g} behind in rms ln"
-    reasons = []
-    if pick.fit.free < best.fit.free:
-        reasons.append(f"{best.fit.free - pick.fit.free} fewer parameters")
-    if pick.ns_per_sample < 0.8 * best.ns_per_sample:
-        reasons.append(f"{best.ns_per_sample / pick.ns_per_sample:.1f} times cheaper")
-    return pick, f"cannot be told from {best.fit.name} by these data, with {' and '.join(reasons) or 'no more parameters'}"
+def recommend(rows: Sequence[Row]) -> tuple[Row, str]:
+    """The simplest of those that cannot be told from the best that can be trusted, and the reason in words."""
+    trusted = [row for row in rows if not any(warning.code in DISTRUSTED for warning in row.warnings)] or list(rows)
+    best = trusted[0]
+    equal = [row for row in trusted if row.tied] if best.tied else [best]
+    pick = min(equal, key=lambda row: (row.fit.free, row.ns_per_sample))
+    passed = [row for row in rows[: rows.index(best)]]
+    aside = f"; {', '.join(row.fit.name for row in passed)} {'has' if len(passed) == 1 else 'have'} less error but cannot be trusted" if passed else ""
+    if pick is not best:
+        reasons = []
+        if pick.fit.free < best.fit.free:
+            reasons.append(f"has {best.fit.free - pick.fit.free} fewer parameters")
+        if pick.ns_per_sample < 0.8 * best.ns_per_sample:
+            reasons.append("is cheaper to evaluate")
+        return pick, f"cannot be told from {best.fit.name} by these data, and {' and '.join(reasons) or 'comes first in the list'}{aside}"
+    if len(equal) > 1:
+        others = ", ".join(row.fit.name for row in equal if row is not pick)
+        return pick, f"least error, and the simplest of those that cannot be told apart by these data ({others}){aside}"
+    behind = [row for row in trusted if row is not pick]
+    if not behind:
+        return pick, f"the only candidate{aside}"
+    gap = behind[0].rms_ln - pick.rms_ln
+    return pick, f"least error; {behind[0].fit.name} follows {gap:.2g} behind in rms ln{aside}"
 
 
 def _overall(rows: list[Row], winners: dict[str, str], noise: float) -> tuple[Finding, ...]:

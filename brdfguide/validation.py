@@ -9,7 +9,7 @@ from .fitting import Fit, Options
 from .geometry import in_plane
 from .measurement import Finding, Measurement
 from .misfit import Layout, Misfit, metric
-from .ranking import Ranking
+from .ranking import Ranking, recommend
 
 FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
 SAMPLES = 800  # directions for the repeated fits
@@ -120,5 +120,5 @@ def validated(ranking: Ranking, measurement: Measurement, options: Options = Opt
         warning = imitation(row.fit, held)
         warnings = row.warnings + ((warning,) if warning else ())
         rows.append(replace(row, held_out=held, growth=growth(row.fit, measurement), warnings=warnings))
-    recommended = next(row for row in rows if row.fit is ranking.recommended.fit)
-    return replace(ranking, rows=tuple(rows), recommended=recommended)
+    recommended, because = recommend(rows)
+    return replace(ranking, rows=tuple(rows), recommended=recommended, because=because)
