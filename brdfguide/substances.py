@@ -46,7 +46,7 @@ SUBSTANCES = (
     _dielectric("acrylic", 1.48, 0.55, TABLE1 + "their measurement", "lucite", "plexiglas", "pmma", "perspex", table1=0.0375, note="1.49 is usual, F0 4 % higher"),
     _dielectric("polyethylene", 1.490, 0.5511, TABLE1 + "Palik 1985", "pe", "hdpe", "ldpe", table1=0.0387),
     _dielectric("window glass", 1.51, 0.55, TABLE1 + "Brown 1985, the lower of 1.51 to 1.54", "glass", "plate glass", "float glass", table1=0.0413),
-    _dielectric("window glass, high", 1.54, 0.55, TABLE1 + "Brown 1985, the higher of 1.51 to 1.54", table1=0.0452),
+    _dielectric("window glass (high)", 1.54, 0.55, TABLE1 + "Brown 1985, the higher of 1.51 to 1.54", table1=0.0452),
     _dielectric("diamond", 2.4203, 0.55, TABLE1 + "Palik 1985", table1=0.1724),
     _metal("nickel", (1.80,), (3.33,), (0.5636,), TABLE1 + "Palik 1985", table1=0.6196),
     _metal("chromium", (3.18,), (4.41,), (0.5585,), TABLE1 + "Palik 1998", "chrome", table1=0.6555),

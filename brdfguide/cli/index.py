@@ -1,0 +1,42 @@
+"""`brdfguide index`: n from F0, F0 from n + ik, or both by the name of a substance."""
+
+from typing import Annotated
+
+from typer import Argument, Option
+
+from ..errors import InputError
+from ._options import JsonOption, QuietOption, note, print_json
+
+EXAMPLES = "Examples: brdfguide index gold | brdfguide index --f0 0.04"
+
+
+def index(
+    material: Annotated[str | None, Argument(help="A substance (brass), or with the extra `optics` an entry such as SiO2 or Au/Johnson; none and no option: the table.")] = None,
+    f0: Annotated[float | None, Option("--f0", help="Normal reflectance of a smooth sample.")] = None,
+    n: Annotated[float | None, Option("--n", help="Refractive index.")] = None,
+    k: Annotated[float, Option("--k", min=0, help="Absorption index.")] = 0.0,
+    wavelength_nm: Annotated[float, Option("--wavelength-nm", min=100, max=20000, help="For entries of refractiveindex.info.")] = 550.0,
+    json: JsonOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Refractive index and normal reflectance, with what the usual simplifications cost."""
+    from ..report import indices, table
+
+    if sum(each is not None for each in (material, f0, n)) > 1:
+        raise InputError("give one of: a substance, --f0, --n")
+    if f0 is not None:
+        document = indices.from_f0(f0)
+    elif n is not None:
+        if not 0 < n <= 100:
+            raise InputError(f"n = {n:g}: a refractive index lies above 0, at most 100")
+        document = indices.from_index(n, k)
+    elif material is not None:
+        document = indices.named(material, wavelength_nm / 1000)
+    else:
+        document = indices.everything()
+    if json:
+        print_json(document)
+        return
+    print(table.columns(*indices.lines(document), right=()))
+    for each in document["warnings"]:
+        note(f"note: {each['text']}", quiet)
