@@ -1,0 +1,251 @@
+"""What a measurement is and is not: coverage, quantity, conventions, reciprocity, energy, missing zones, spikes, noise.
+
+Each finding has a stable code, a sentence, the numbers behind it, what it changes in an answer, and the option that overrides it.
+`corrected` undoes what is certain, and refuses what contradicts itself.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from . import conventions, reciprocity, reflectance, retro, sampling
+from .errors import InputError
+from .measurement import Finding, Measurement
+from .smoothness import noise, spikes
+
+__all__ = ["corrected", "examine", "noise", "outside", "spikes"]
+LARGE = 60_000  # directions beyond which a stratified subset is examined
+STATED = {"quantity-by-option", "quantity-stated"}
+SIDE_KNOWN = {"mirror-side", "mirror-side-turned", "mirror-side-by-option"}
+ENERGY_SLACK = 1.1  # a hemispherical reflectance above this is no BRDF in 1/sr; scales are known to about 5 %
+
+
+def examine(measurement: Measurement) -> tuple[Finding, ...]:
+    """Everything noticed, in the order in which one would ask; nothing is changed."""
+    if not np.any(measurement.usable):
+        text = "no value is positive: there is nothing to fit"
+        return (Finding("no-usable-values", text, "error", numbers=(("values", measurement.brdf.size),)),)
+    looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
+    spiky = spikes(looked_at)
+    found = [_coverage(looked_at), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, spiky)]
+    found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_noise(looked_at)]
+    return tuple(found)
+
+
+def corrected(measurement: Measurement, *, anyway: bool = False) -> Measurement:
+    """The measurement with what is certain undone and noted. Raises InputError where the values contradict themselves, unless `anyway`."""
+    for _ in range(3):  # the side first, then the cosine, then the factor pi
+        found = {finding.code: finding for finding in examine(measurement)}
+        if "mirror-side-contradicted" in found and found["mirror-side-contradicted"].severity == "warning":
+            note = replace(found["mirror-side-contradicted"], code="mirror-side-turned", severity="note")
+            measurement = replace(measurement, geom=conventions.turned(measurement.geom)).noting(note)
+        elif "cosine-weighted" in found:
+            measurement = conventions.as_brdf(measurement, "brdf-cos").noting(_undone(found["cosine-weighted"], "divided by cos theta_r"))
+        elif "reflectance-factor" in found:
+            measurement = conventions.as_brdf(measurement, "reflectance-factor").noting(_undone(found["reflectance-factor"], "divided by pi"))
+        else:
+            break
+    for finding in found.values():
+        if finding.severity == "error" and not anyway:
+            hint = f"; {finding.option} overrides this" if finding.option else ""
+            raise InputError(f"{measurement.name or 'measurement'}: {finding.text}{hint}")
+    return measurement
+
+
+def outside(findings) -> tuple[Finding, ...]:
+    """Those that put the surface outside the guide: `fit` and `recommend` answer only with --anyway."""
+    return tuple(finding for finding in findings if finding.severity == "outside")
+
+
+def _undone(finding: Finding, how: str) -> Finding:
+    return replace(finding, text=f"{finding.text}: {how}", severity="note")
+
+
+# --- where was measured -----------------------------------------------------------------------------------
+
+
+def _coverage(m: Measurement) -> Finding:
+    incidences = m.theta_i_groups
+    theta_i, theta_r = m.geom.theta_i_deg, m.geom.theta_r_deg
+    where = "in the plane of incidence" if m.in_plane else "over the hemisphere"
+    text = f"{len(m.geom)} directions {where}, {len(incidences)} incidence angles {_span(theta_i)}, reflected {_span(theta_r)} degrees"
+    numbers = (
+        ("directions", len(m.geom)), ("incidences", len(incidences)), ("theta_i_from_deg", float(theta_i.min())), ("theta_i_to_deg", float(theta_i.max())),
+        ("theta_r_from_deg", float(theta_r.min())), ("theta_r_to_deg", float(theta_r.max())), ("missing", m.censored), ("values", m.brdf.size),
+    )  # fmt: skip
+    return Finding("coverage", text, numbers=numbers)
+
+
+def _span(angles) -> str:
+    low, high = float(np.min(angles)), float(np.max(angles))
+    return f"{low:.3g}" if low == high else f"{low:.3g}..{high:.3g}"
+
+
+def _reach(m: Measurement):
+    """Where models will differ because nobody looked."""
+    usable = np.any(m.usable, axis=1)
+    for name, angles in (("theta_i", m.geom.theta_i_deg[usable]), ("theta_r", m.geom.theta_r_deg[usable])):
+        largest = float(angles.max())
+        if largest < 75:
+            text = f"no data beyond {name} = {largest:.3g} degrees: models will differ where you have none"
+            yield Finding(f"no-data-beyond-{name.replace('_', '-')}", text, "warning", "the growth toward grazing is not tested", numbers=(("largest_deg", largest),))
+    if len(m.theta_i_groups) == 1:
+        text = "one incidence angle: how the surface changes with it is not tested"
+        yield Finding("one-incidence", text, "warning", "index and roughness cannot be told apart by angle; reciprocity cannot be tested")
+    if m.in_plane and np.all(m.geom.signed_theta_r_deg[usable & (m.geom.theta_i_deg[:, 0] > 1)] >= 0):
+        text = "only the mirror side of the plane of incidence was measured"
+        yield Finding("one-sided", text, consequence="the diffuse level rests on the flank of the lobe")
+
+
+# --- what the numbers are ---------------------------------------------------------------------------------
+
+
+def _side(m: Measurement):
+    if SIDE_KNOWN & {finding.code for finding in m.findings}:
+        return
+    side = conventions.side_of(m.geom, m.brdf)
+    numbers = (("ln_ahead_over_behind", side.contrast), ("largest", side.largest), ("growth", side.growth))
+    if side.verdict == "turned":
+        text = f"the values put the mirror direction on the side of the light: {side.text}"
+        severity = "warning" if side.certain else "note"
+        yield Finding("mirror-side-contradicted", text, severity, "every lobe would be fitted on the wrong side", "--mirror-side", numbers)
+    else:
+        yield Finding("mirror-side", f"mirror direction at phi_r - phi_i = 180: {side.text}", numbers=numbers)
+
+
+def _quantity(m: Measurement, spiky):
+    """Reciprocity and energy, and what they say about the quantity."""
+    said = {finding.code for finding in m.findings}
+    known = said & (STATED | {"reflectance-factor"})
+    tested = reciprocity.test(m)
+    weighted = False
+    if tested:
+        numbers = [("pairs", tested.pairs), ("median_ratio", tested.ratio), ("median_ratio_over_cosine", tested.corrected_ratio)]
+        numbers += [("power_of_cosine", tested.power), ("power_stderr", tested.power_stderr)] if tested.power is not None else []
+        weighted = tested.power is not None and abs(tested.power - 1) < 0.3 and tested.corrected_ratio < tested.ratio
+        yield _reciprocity(tested, weighted and not said & (STATED | {"cosine-weighted"}), tuple(numbers))
+    level = reflectance.measured(m, spiky)
+    if level is None:
+        text = "the coverage does not tell the hemispherical reflectance: a factor of pi could not be noticed"
+        yield Finding("energy-untold", text, option="--quantity")
+        return
+    most, least = float(np.max(level.values)), float(np.median(level.values))
+    bound = "at least " if level.how == "plane" else ""
+    numbers = tuple((f"at_{angle:g}_deg", value) for angle, value in zip(level.theta_i_deg, level.values))
+    text = f"hemispherical reflectance {bound}{min(level.values):.3g}..{most:.3g} within {level.to_deg:.0f} degrees, brightest channel"
+    if weighted or least <= ENERGY_SLACK:
+        yield Finding("reflectance", text, numbers=numbers)
+    elif least <= ENERGY_SLACK * np.pi and not known:
+        consequence = "albedos and lobes would come out pi times too large"
+        yield Finding("reflectance-factor", f"{text}: values are reflectance factors, pi times the BRDF", "warning", consequence, "--quantity brdf", numbers)
+    else:
+        consequence = "no model that keeps energy can follow; the scale may be relative"
+        option = "--quantity reflectance-factor, or --anyway" if not known else "--anyway"
+        yield Finding("too-bright", f"{text}: more light than came in", "error", consequence, option, numbers)
+
+
+def _reciprocity(tested, weighted: bool, numbers) -> Finding:
+    if weighted:
+        text = f"exchanging light and detector changes the values by (cos theta_r/cos theta_i)^{tested.power:.2f}: they are BRDF times cos theta_r"
+        return Finding("cosine-weighted", text, "warning", "lobes would seem to fade toward grazing", "--quantity brdf", numbers)
+    off = tested.power is not None and abs(tested.power) > max(0.25, 4 * tested.power_stderr)
+    if off or tested.ratio > 1.35:
+        how = f", as (cos theta_r/cos theta_i)^{tested.power:.2f}" if off else ""
+        text = f"not reciprocal: {tested.pairs} exchanged pairs differ by a median factor {tested.ratio:.3g}{how}"
+        return Finding("not-reciprocal", text, "warning", "no physical model fits better than this", "--quantity brdf-cos" if off and tested.power > 0 else "", numbers)
+    return Finding("reciprocal", f"reciprocal: {tested.pairs} exchanged pairs agree to a median factor {tested.ratio:.3g}", numbers=numbers)
+
+
+# --- what the surface is ----------------------------------------------------------------------------------
+
+
+def _retro(m: Measurement):
+    found = retro.lobe(m)
+    if found is None or found.lobe < 1.5:
+        return
+    numbers = (("lobe_over_surroundings", found.lobe), ("over_mirror_side", found.over_mirror), ("incidences", found.incidences))
+    text = f"a lobe toward the source, {found.lobe:.3g} times its surroundings and {found.over_mirror:.3g} times the mirror side"
+    if found.lobe > 3 and found.over_mirror > 0.3:
+        yield Finding("retro-reflector", f"{text}: a retro-reflector", "outside", "no model of the guide has such a lobe", "--anyway", numbers)
+    else:
+        yield Finding("retro-peak", text, "warning", "only a retro-reflecting lobe could follow it", numbers=numbers)
+
+
+def _rotation(m: Measurement):
+    """Does the value depend on how the sample is turned?"""
+    geom = m.geom
+    if len(np.unique(np.round(geom.phi_i_deg[geom.theta_i_deg > 1], 0))) > 1:
+        phi = np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0)
+        keys = np.round(np.stack([geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0], phi], axis=1), 1)
+        _, group = np.unique(keys, axis=0, return_inverse=True)
+        usable = np.all(m.usable, axis=1)
+        level = np.mean(np.log(np.where(m.usable, m.brdf, 1.0)), axis=1)
+        spread = _spread_within(group.reshape(-1)[usable], level[usable])
+        if spread is not None:
+            numbers, scatter = (("rms_ln_over_rotation", spread),), noise(m) or 0.02
+            if spread > max(0.2, 5 * scatter):
+                text = f"anisotropic: turning the sample changes values by {np.expm1(spread):.0%} (rms)"
+                yield Finding("anisotropic", text, "outside", "the guide's models are isotropic", "--anyway", numbers)
+            else:
+                yield Finding("isotropic", f"isotropic: turning the sample changes values by {np.expm1(spread):.1%} (rms)", numbers=numbers)
+            return
+    text = "one rotation of the sample: whether it is isotropic cannot be told" + (" from the plane of incidence" if m.in_plane else "")
+    yield Finding("rotation-untold", text, consequence="a brushed surface would be fitted for one direction of brushing only")
+
+
+def _spread_within(group, level) -> float | None:
+    """rms departure from the mean of those that differ in rotation only; None where less than ten do."""
+    counts = np.bincount(group)
+    mean = np.bincount(group, level) / np.maximum(counts, 1)
+    repeated = counts[group] > 1
+    if np.count_nonzero(repeated) < 10:
+        return None
+    freedom = np.count_nonzero(repeated) - np.count_nonzero(counts > 1)
+    return float(np.sqrt(np.sum((level - mean[group])[repeated] ** 2) / freedom))
+
+
+# --- what is wrong with single values ---------------------------------------------------------------------
+
+
+def _gaps(m: Measurement):
+    """Zones where every value is missing."""
+    missing = ~np.any(m.usable, axis=1)
+    count = int(np.count_nonzero(missing))
+    if count:
+        steepest = np.maximum(m.geom.theta_i_deg, m.geom.theta_r_deg)[missing]
+        text = f"{count} of {len(missing)} directions have no usable value in any channel"
+        yield Finding("missing-zone", text, consequence="no model is tested there", numbers=(("directions", count), ("from_theta_deg", float(steepest.min()))))
+    partly = m.censored - count * len(m.channels)
+    if partly > 0.02 * m.brdf.size:
+        worst = int(np.argmin(np.count_nonzero(m.usable, axis=0)))
+        text = f"{partly} further values are missing or not positive, most in channel {m.channels[worst]}"
+        yield Finding("missing-values", text, "warning", "dim channels are fitted by their brighter directions only", numbers=(("values", partly),))
+
+
+def _marks(m: Measurement):
+    """Saturation: the highest value again and again."""
+    values = m.brdf[m.usable]
+    top = values.max()
+    count = int(np.count_nonzero(values == top))
+    if count >= 4 and count < 0.2 * values.size and count > 3 * np.count_nonzero((values < top) & (values > 0.999 * top)):
+        text = f"the highest value, {top:g}/sr, stands {count} times: the detector's limit"
+        yield Finding("saturated", text, "warning", "peaks are higher than measured", numbers=(("values", count), ("limit_per_sr", float(top))))
+    negative = int(np.count_nonzero(m.brdf < 0))
+    if negative:
+        text = f"{negative} values are negative: noise about zero; they take no part in a fit"
+        yield Finding("negative-values", text, "warning" if negative > 0.02 * m.brdf.size else "note", numbers=(("values", negative),))
+
+
+def _spikes(m: Measurement, spiky):
+    count = int(np.count_nonzero(spiky))
+    if count:
+        text = f"{count} samples at the mirror direction stand alone above a flat surrounding: an ideal mirror seen through the instrument"
+        yield Finding("spikes", text, "warning", "their height is the aperture's, not the surface's: left out of fits", numbers=(("samples", count),))
+
+
+def _noise(m: Measurement):
+    level = noise(m)
+    if level is None:
+        return
+    severity = "warning" if level > 0.15 else "note"
+    yield Finding("noise", f"single values scatter by {level:.2g} (relative, from their neighbours)", severity, numbers=(("relative", level),))

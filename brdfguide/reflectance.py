@@ -1,0 +1,108 @@
+"""Directional-hemispherical reflectance out of scattered samples: how much light comes back, where the coverage tells."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .measurement import Measurement
+
+RINGS, SPOKES = 16, 24  # quadrature: equal steps in sin² theta_r, and in azimuth over the half circle
+NEIGHBOURS = 8
+MOST = 1500  # samples of one incidence that are looked at
+INCIDENCES = 7  # how many are integrated
+
+
+@dataclass(frozen=True)
+class Reflectance:
+    """For each incidence [deg]: reflectance within `to_deg` of the normal for the brightest channel, and how it was found."""
+
+    theta_i_deg: tuple[float, ...]
+    values: tuple[float, ...]
+    to_deg: float
+    how: str  # hemisphere: integrated; plane: the least that in-plane data allow
+
+
+def measured(measurement: Measurement, without=None) -> Reflectance | None:
+    """Reflectance at up to seven incidences with enough samples; None where the coverage does not tell. `without` masks rows."""
+    usable = measurement.usable if without is None else measurement.usable & ~without[:, None]
+    geom, level = measurement.geom, np.where(usable, np.log(np.where(usable, measurement.brdf, 1.0)), np.nan)
+    rows = np.flatnonzero(np.any(usable, axis=1))
+    if len(rows) < 12 or len(geom) > 200_000:
+        return None
+    channel = int(np.argmax(np.sum(np.where(usable, measurement.brdf, 0.0) * geom.cos_r, axis=0)))
+    found, limits, how = {}, [], "plane" if measurement.in_plane else "hemisphere"
+    one = _least_of_plane if how == "plane" else _of_hemisphere
+    for angle, group in _incidences(measurement, rows):
+        group = group[np.isfinite(level[group, channel])]
+        reach = float(np.percentile(geom.theta_r_deg[group], 98)) if len(group) >= 12 else 0.0
+        if reach < 40:
+            continue
+        value = one(geom[group[:: len(group) // MOST + 1]], level[group[:: len(group) // MOST + 1], channel], reach)
+        if value is not None:
+            found[angle] = value
+            limits.append(reach)
+    return Reflectance(tuple(found), tuple(found.values()), float(np.median(limits)), how) if found else None
+
+
+def _incidences(measurement: Measurement, rows):
+    """(incidence, its rows) for up to seven incidences below 80 degrees; bands of 4 degrees where the incidence was not held."""
+    theta_i = measurement.geom.theta_i_deg[rows, 0]
+    angles, counts = np.unique(np.round(theta_i, 1), return_counts=True)
+    if np.median(counts) < 12:
+        theta_i = np.round(theta_i / 4) * 4
+        angles, counts = np.unique(theta_i, return_counts=True)
+    angles = angles[(counts >= 12) & (angles < 80.5)]
+    for angle in angles[np.unique(np.linspace(0, len(angles) - 1, INCIDENCES).astype(int))] if len(angles) else []:
+        yield float(angle), rows[np.abs(theta_i - angle) < 0.06]
+
+
+def _of_hemisphere(geom, level, reach: float) -> float | None:
+    """Integral of f cos over the directions within `reach` [deg]; None where less than four azimuths were measured."""
+    phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))
+    top = np.sin(np.radians(reach)) ** 2
+    rings = np.sqrt((np.arange(RINGS) + 0.5) / RINGS * top)
+    if len(np.unique(np.round(np.degrees(phi) / 10))) < 4:
+        if geom.theta_i_deg[0, 0] > 5:
+            return None
+        order = np.argsort(geom.sin_r[:, 0])  # light along the normal: the same all around
+        fine = np.sqrt((np.arange(1000) + 0.5) / 1000 * top)
+        return float(np.exp(np.interp(fine, geom.sin_r[order, 0], level[order])).mean() * np.pi * top)
+    places = np.stack([geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi)], axis=1)
+    spokes = (np.arange(SPOKES) + 0.5) / SPOKES * np.pi
+    nodes = np.stack([np.outer(rings, np.cos(spokes)).ravel(), np.outer(rings, np.sin(spokes)).ravel()], axis=1)
+    return float(np.exp(_interpolated(nodes, places, level)).mean() * np.pi * top)
+
+
+def _interpolated(nodes, places, level) -> np.ndarray:
+    """A plane through the nearest samples in ln f, kept within what they span."""
+    values = np.empty(len(nodes))
+    count = min(NEIGHBOURS, len(places))
+    for start in range(0, len(nodes), 256):
+        block = nodes[start : start + 256]
+        apart = np.sum((block[:, None] - places[None]) ** 2, axis=2)
+        near = np.argpartition(apart, count - 1, axis=1)[:, :count]
+        squared = np.take_along_axis(apart, near, axis=1)
+        weight = 1 / (squared + 1e-3 * squared.max(axis=1, keepdims=True) + 1e-12) ** 2
+        weight /= weight.sum(axis=1, keepdims=True)
+        local = places[near] - block[:, None]
+        design = np.concatenate([np.ones((*local.shape[:2], 1)), local], axis=2)
+        normal = np.einsum("nki,nk,nkj->nij", design, weight, design) + np.diag([0.0, 1e-6, 1e-6])
+        right = np.einsum("nki,nk,nk->ni", design, weight, level[near])
+        plane = np.linalg.solve(normal, right[..., None])[:, 0, 0]
+        values[start : start + 256] = np.clip(plane, level[near].min(axis=1), level[near].max(axis=1))
+    return values
+
+
+def _least_of_plane(geom, level, reach: float) -> float | None:
+    """The least reflectance that in-plane data allow: at every theta_r the darker side, all around. None for one-sided data."""
+    signed = geom.signed_theta_r_deg[:, 0]
+    sides = []
+    for sign in (1, -1):
+        side = signed * sign >= 0
+        if np.count_nonzero(side) < 4 or (signed[side] * sign).max() < 0.8 * reach:
+            return None
+        order = np.argsort(signed[side] * sign)
+        sides.append((signed[side][order] * sign, level[side][order]))
+    theta = np.degrees(np.arcsin(np.sqrt((np.arange(200) + 0.5) / 200) * np.sin(np.radians(reach))))
+    darker = np.minimum(*(np.interp(theta, *side) for side in sides))
+    return float(np.exp(darker).mean() * np.pi * np.sin(np.radians(reach)) ** 2)

@@ -1,0 +1,43 @@
+"""Whether light is sent back to where it came from: a lobe about the source, which no model of the guide has."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import conventions
+from .measurement import Measurement
+
+STEEP_DEG = 12.0  # incidences nearer to the normal do not separate source and mirror direction
+
+
+@dataclass(frozen=True)
+class Retro:
+    """Medians over the incidences: how far the lobe about the source stands above its surroundings, and relative to the mirror side."""
+
+    lobe: float
+    over_mirror: float
+    incidences: int
+
+
+def lobe(measurement: Measurement) -> Retro | None:
+    """None where nothing was measured within 6 degrees of the source at incidences beyond 12 degrees."""
+    geom = measurement.geom
+    usable = np.any(measurement.usable, axis=1)
+    level = np.full(len(geom), np.nan)
+    level[usable] = np.nanmedian(np.where(measurement.usable[usable], measurement.brdf[usable], np.nan), axis=1)
+    source = conventions.retro_distance_deg(geom)[:, 0]
+    mirror = np.degrees(2 * np.arcsin(np.minimum(0.5 * np.sqrt(geom.mirror_distance2[:, 0]), 1.0)))
+    lobes, over = [], []
+    for angle, rows in measurement.theta_i_groups.items():
+        rows = rows[usable[rows] & (mirror[rows] > np.minimum(angle, 12.0)) | usable[rows] & (mirror[rows] < source[rows])]
+        near = rows[source[rows] < 6.0]
+        around = rows[(source[rows] > 10.0) & (source[rows] < 25.0) & (mirror[rows] > 12.0)]
+        if angle < STEEP_DEG or not len(near) or not len(around):
+            continue
+        lobes.append(level[near].max() / np.median(level[around]))
+        ahead = rows[(mirror[rows] < source[rows]) & (source[rows] > 15.0)]
+        if len(ahead):
+            over.append(level[near].max() / level[ahead].max())
+    if not lobes:
+        return None
+    return Retro(float(np.median(lobes)), float(np.median(over)) if over else np.inf, len(lobes))

@@ -1,0 +1,138 @@
+"""What neighbours say about a value: how noisy the data are, and which samples are spikes at the mirror direction."""
+
+import numpy as np
+
+from .measurement import Measurement
+
+SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
+SPIKE_DROP = np.log(3.0)  # and stands this far, in ln, above what surrounds it
+GRAZING_DEG = 85.0
+
+
+def noise(measurement: Measurement) -> float | None:
+    """Relative standard deviation of a single value, from its departure from a cubic through four neighbours of its scan.
+
+    Scans run over the reflected angle in one plane, or over the incidence at one reflected angle; where there are none,
+    directions mirrored at the plane of incidence are compared, or each with a parabola through its neighbours. The median is used, so that peaks do not count as noise.
+    None where nothing can be compared.
+    """
+    level = _ln(measurement)
+    departures = [departure for scan in _scans(measurement) for departure in _departures(*scan, level)]
+    if sum(len(each) for each in departures) < 40:
+        departures += _mirrored(measurement, level)
+    if sum(len(each) for each in departures) < 40:
+        departures += _scattered(measurement, level)
+    values = np.concatenate([np.ravel(each) for each in departures]) if departures else np.zeros(0)
+    values = np.abs(values[np.isfinite(values)])
+    return float(np.median(values) / 0.6745) if len(values) >= 20 else None
+
+
+def spikes(measurement: Measurement) -> np.ndarray:
+    """(samples,) mask of directions one or two samples wide at the mirror direction that stand far above a flat surrounding.
+
+    An ideal mirror, seen through the instrument, gives such values; their height says more about the aperture than about the surface.
+    """
+    mask = np.zeros(len(measurement.geom), bool)
+    if len(mask) > 200_000:  # a dense table has no single samples
+        return mask
+    level = np.nanmax(np.where(measurement.usable, _ln(measurement), -np.inf), axis=1)
+    distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
+    for rows in _groups(measurement):
+        rows = rows[np.isfinite(level[rows])]
+        rows = rows[np.argsort(distance[rows], kind="stable")]
+        for core in (3, 2, 1):
+            if len(rows) < core + 5 or distance[rows[core - 1]] > SPIKE_DEG or distance[rows[core]] < 0.5:
+                continue
+            around = level[rows[core : core + 6]]
+            drop = level[rows[:core]].min() - around.max()
+            if drop > SPIKE_DROP and drop > 3 * (around.max() - np.median(around)):
+                mask[rows[:core]] = True
+                break
+    return mask
+
+
+def _ln(measurement: Measurement) -> np.ndarray:
+    usable = measurement.usable
+    return np.where(usable, np.log(np.where(usable, measurement.brdf, 1.0)), np.nan)
+
+
+def _groups(measurement: Measurement):
+    """Rows of one incidence, or of one reflected angle where the incidences are the finer scan."""
+    incidences = measurement.theta_i_groups
+    reflected = np.round(measurement.geom.theta_r_deg[:, 0], 1)
+    others = np.unique(reflected)
+    if len(others) < len(incidences):
+        return [np.flatnonzero(reflected == each) for each in others]
+    return list(incidences.values())
+
+
+def _scans(measurement: Measurement):
+    """(rows in order, their angle [deg]) of every scan through at least five directions."""
+    geom = measurement.geom
+    if len(geom) > 200_000:
+        return
+    plane = np.round(np.where(geom.sin_i < 1e-6, 0.0, np.remainder(geom.phi_deg + 1e-6, 180.0)), 0)[:, 0] % 180
+    sign = np.where(np.remainder(geom.phi_deg[:, 0] + 1e-6, 360.0) >= 179.5, 1.0, -1.0)
+    theta_i, theta_r = geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0]
+    for fixed, angle in ((theta_i, sign * theta_r), (sign * theta_r, theta_i)):
+        keys = np.round(np.stack([fixed, plane], axis=1), 1)
+        order = np.lexsort((angle, keys[:, 1], keys[:, 0]))
+        cuts = np.flatnonzero(np.any(np.diff(keys[order], axis=0) != 0, axis=1)) + 1
+        for rows in np.split(order, cuts):
+            if len(rows) >= 5:
+                yield rows, angle[rows]
+
+
+def _departures(rows, angle, level):
+    """ln f minus the cubic through its two neighbours on either side, in units of one standard deviation if all are alike."""
+    keep = np.r_[True, np.diff(angle) > 1e-6]
+    rows, x = rows[keep], angle[keep]
+    if len(x) < 5:
+        return
+    stencil = np.stack([x[:-4], x[1:-3], x[3:-1], x[4:]])
+    middle = x[2:-2]
+    near = (stencil[3] - stencil[0] < 24) & (np.abs(middle) < GRAZING_DEG)
+    if not np.any(near):
+        return
+    weights = np.ones_like(stencil)
+    for i in range(4):
+        for j in range(4):
+            if i != j:
+                weights[i] *= (middle - stencil[j]) / (stencil[i] - stencil[j])
+    values = level[rows]
+    neighbours = np.stack([values[:-4], values[1:-3], values[3:-1], values[4:]])
+    guess = np.sum(weights[..., None] * neighbours, axis=0)
+    yield ((values[2:-2] - guess) / np.sqrt(1 + np.sum(weights**2, axis=0))[:, None])[near]
+
+
+def _mirrored(measurement: Measurement, level):
+    """Half differences of values at +phi and -phi."""
+    geom = measurement.geom
+    if len(geom) > 200_000:
+        return []
+    phi = np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0
+    keys = np.round(np.stack([geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0], np.abs(phi)], axis=1), 2)
+    order = np.lexsort((phi, *keys.T))
+    pairs = np.all(np.diff(keys[order], axis=0) == 0, axis=1) & (phi[order[:-1]] < -1e-6) & (phi[order[1:]] > 1e-6)
+    return [(level[order[1:][pairs]] - level[order[:-1][pairs]]) / np.sqrt(2)]
+
+
+def _scattered(measurement: Measurement, level):
+    """ln f minus a parabola through the twelve nearest directions of the same incidence, each in units of its standard deviation."""
+    geom, found = measurement.geom, []
+    if len(geom) > 20_000:
+        return found
+    phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))
+    places = np.stack([geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi)], axis=1)
+    for rows in measurement.theta_i_groups.values():
+        rows = rows[np.any(np.isfinite(level[rows]), axis=1)]
+        if len(rows) < 20:
+            continue
+        apart = np.sum((places[rows][:, None] - places[rows][None]) ** 2, axis=2)
+        near = np.argsort(apart, axis=1)[:, 1:13]
+        x, y = np.moveaxis(places[rows][near] - places[rows][:, None], -1, 0)
+        design = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
+        weights = np.linalg.pinv(design)[:, 0]
+        guess = np.einsum("nk,nkc->nc", weights, level[rows][near])
+        found.append((level[rows] - guess) / np.sqrt(1 + np.sum(weights**2, axis=1))[:, None])
+    return found
