@@ -31,7 +31,11 @@ FLOORS = tuple(
         measurement
         optical_constants
         optics
+        reciprocity
+        reflectance
+        retro
         sampling
+        smoothness
         """,
         """
         formats

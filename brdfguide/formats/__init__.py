@@ -120,4 +120,15 @@ def _checked(options: Options) -> Options:
     ):
         if word is not None and word not in known:
             raise choices(kind, word, known)
-    return options
+    return replace(options, columns=_roles(options.columns)) if isinstance(options.columns, str) else options
+
+
+def _roles(text: str):
+    """`theta_i=AOI,brdf=value` as a mapping, `theta_i,theta_r,brdf` as the names of a table without header."""
+    parts = [part.strip() for part in text.split(",")]
+    if not any("=" in part for part in parts):
+        return tuple(parts)
+    pairs = [part.partition("=")[::2] for part in parts]
+    if not all(role.strip() and name.strip() for role, name in pairs):
+        raise InputError(f"--columns {text}: wanted role=column, such as theta_i=AOI,brdf=value, or names in order for a table without header")
+    return {role.strip(): name.strip() for role, name in pairs}
