@@ -17,6 +17,7 @@ import numpy as np
 
 from .geometry import Geometry, rows
 from .optics import fresnel
+from .special import erfcx
 
 ANGLES = (20, 60, 85)
 RECEPTOR_DEG = {20: (1.80, 3.60), 60: (4.40, 11.70), 85: (4.00, 6.00)}  # in the plane of incidence, across it; ISO 2813
@@ -33,12 +34,13 @@ def standard(angle: int) -> float:
     return float(fresnel(cos(radians(angle)), STANDARD_N))
 
 
-def units(f, angle: int, mirror: float = 0.0):
+def units(f, angle: int, mirror: float = 0.0, quick: bool = False):
     """Gloss units of a BRDF `f(geom)` [1/sr] whose ideal specular reflectance at `angle` is `mirror`.
 
-    Takes  f giving (samples, channels).    Gives  (channels,).    Lobes narrower than about 0.02° need `mirror` instead.
+    Takes  f giving (samples, channels).    Gives  (channels,); `quick` is good to 1 unit.
+    Lobes narrower than about 0.02° need `mirror` instead.
     """
-    geom, weight = directions(angle)
+    geom, weight = directions(angle, 2, 11) if quick else directions(angle)
     return 100 / standard(angle) * (np.sum(weight * f(geom), axis=0) + mirror)
 
 
@@ -74,10 +76,8 @@ def facets(geom: Geometry, alpha: float, lobe: str) -> np.ndarray:
 
 
 def _beckmann_hidden(x):
-    """Smith's Λ = (exp(-x²)/(x√π) - erfc x)/2; below 1e-13, so nothing, from x = 5."""
-    x = np.minimum(x, 5.0)
-    erfc = 1 - np.array([erf(each) for each in np.ravel(x)]).reshape(np.shape(x))
-    return np.maximum(np.exp(-x * x) / (x * sqrt(pi)) - erfc, 0.0) / 2
+    """Smith's Λ = exp(-x²) (1/(x√π) - erfcx x)/2."""
+    return np.exp(-np.minimum(x * x, 700.0)) * np.maximum(1 / (x * sqrt(pi)) - erfcx(x), 0.0) / 2
 
 
 def closed_form(angle: int, alpha: float, n: float) -> float:
@@ -90,7 +90,7 @@ def closed_form(angle: int, alpha: float, n: float) -> float:
     return 100 * float(fresnel(across, n)) / standard(angle) * erf(high / (4 * alpha)) * erf(wide / (4 * alpha * across))
 
 
-@lru_cache(maxsize=len(ANGLES))
+@lru_cache(maxsize=2 * len(ANGLES))
 def directions(angle: int, lamp_nodes: int = 4, nodes: int = 14) -> tuple[Geometry, np.ndarray]:
     """Lamp and receptor directions, rows of one column, and their weights: cos θr dω, averaged over the lamp.
 

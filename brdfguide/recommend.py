@@ -186,7 +186,7 @@ def predicted_gloss(model: Sum, values: Mapping) -> dict[int, float]:
     for angle in gloss.ANGLES:
         at = Geometry.from_degrees(angle, 0.0, angle, 180.0)
         mirror = float(np.squeeze(model.mirror(at, single))) if model.has_mirror else 0.0
-        out[angle] = float(gloss.units(lambda geom: model(geom, single), angle, mirror)[0])
+        out[angle] = float(gloss.units(lambda geom: model(geom, single), angle, mirror, quick=True)[0])
     return out
 
 

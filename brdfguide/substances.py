@@ -7,6 +7,7 @@ spectrum, and common dielectrics. With the extra `optics` the whole of refractiv
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 
 RGB_UM = (0.65, 0.55, 0.45)  # the wavelengths that stand for red, green and blue where a table has no colours
 JC72 = "Johnson and Christy 1972, Phys. Rev. B 6, 4370, interpolated at 650, 550, 450 nm"
@@ -92,15 +93,22 @@ SEMICONDUCTORS = set("silicon germanium arsenide selenium graphite carbon graphe
 NOT_THE_SUBSTANCE = set("paint painted lacquer ink wrap film look coloured colored colour color effect oxide plastic vinyl glass glaze leafed card paper chloride dioxide carbonate nitrate sulfate sulphate pencil birch".split())
 
 
+@lru_cache(maxsize=1024)
 def find(name: str) -> Substance | None:
     """The substance that is called so, by name or alias; None if there is none."""
-    wanted = " ".join(re.findall(r"[a-z0-9.,]+", name.lower().replace("-", " ")))
-    for each in SUBSTANCES:
-        if wanted in (" ".join(re.findall(r"[a-z0-9.,]+", known.lower().replace("-", " "))) for known in (each.name, *each.aliases)):
-            return each
-    return None
+    return _by_name().get(_plain(name))
 
 
+@lru_cache(maxsize=1)
+def _by_name() -> dict[str, Substance]:
+    return {_plain(known): each for each in reversed(SUBSTANCES) for known in (each.name, *each.aliases)}
+
+
+def _plain(name: str) -> str:
+    return " ".join(re.findall(r"[a-z0-9()]+", name.lower()))
+
+
+@lru_cache(maxsize=1024)
 def kind_of_words(text: str) -> tuple[str | None, str]:
     """(metal, dielectric, semiconductor or None; the word that says so). None where no word is known or the words disagree."""
     known = find(text)

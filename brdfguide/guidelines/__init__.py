@@ -5,6 +5,7 @@ are available, measured before guessed. A rule that does not apply is silent; no
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from .. import catalog
 from ..material import Material
@@ -22,6 +23,7 @@ class Consultation:
     silent: tuple[Rule, ...]
 
 
+@lru_cache(maxsize=1)
 def rules() -> tuple[Rule, ...]:
     return tuple(rule for part in ORDER for rule in catalog.load("guidelines", part).RULES)
 

@@ -114,6 +114,9 @@ def kind_open(material: Material) -> Advice | None:
     """Neither metal nor dielectric is known: one candidate of each."""
     if material.kind in ("metal", "dielectric"):
         return None
+    if material.finish == "mirror":
+        names = ("mirror",) if material.n is not None else ("lambertian+mirror", "mirror")
+        return Advice("Fresnel's mirror, whichever kind it is", "a mirror finish, kind not known", prefers=names)
     dark = material.appearance == "black"
     names = ("ggx", "he-torrance") if dark else ("lambertian+ggx", "ggx", "lambertian+he-torrance")
     return Advice("a candidate for each kind, since neither is known; do not mix them", "kind not known", prefers=names)

@@ -203,6 +203,8 @@ def finish_against_width(material: Material) -> Advice | None:
     """The look and the measured width must be of one sort."""
     if material.finish is None or material.alpha is None:
         return None
+    if material.sigma is not None and (4 * pi * material.sigma / wavelength(material)) ** 2 < 20:
+        return None  # a mirror image covers the lobe, whose width the eye does not see
     usual = 0.005 if material.finish == "mirror" else WIDTH_OF[material.finish]
     if 1 / 5 <= material.alpha / usual <= 5 or (material.finish == "mirror" and material.alpha < usual):
         return None
