@@ -219,8 +219,10 @@ class Geometry:
         return replace(self, **{name: np.where(self.lit, getattr(self, name), value) for name, value in normal.items()})
 
     def at(self, wavelength) -> "Geometry":
-        """The same directions at another wavelength [µm]."""
-        return replace(self, wavelength=wavelength)
+        """The same directions at another wavelength [µm], with what was derived from them so far."""
+        other = replace(self, wavelength=wavelength)
+        other.__dict__.update({name: value for name, value in self.__dict__.items() if name != "wavelength"})
+        return other
 
 
 DIRECTIONAL = tuple(field.name for field in fields(Geometry) if field.name != "wavelength")

@@ -63,7 +63,7 @@ def one_minus_fresnel(cos_d, n, k=0.0):
 
 def _interface(cos_d, n, k):
     """|N²-1|², |q+c|², P = |q|²c² + s⁴, P + 2 c s² Re q, 2 c Re q, s², all in units of u² (1, or (n+k)² if enormous)."""
-    c, n, k = np.asarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
+    c, n, k = np.asanyarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
     enormous = np.max(n + k) > 1e38  # its squares may overflow
     u = n + k if enormous else 1.0
     n_u, k_u, minus, plus = n / u, k / u, (n - 1) / u, (n + 1) / u
@@ -96,7 +96,7 @@ def fresnel_gradient(cos_d, n, k=0.0):
 
     Takes  what `fresnel` takes, off the critical angle of n < 1.    Gives  two arrays (...).
     """
-    c, n, k = np.asarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
+    c, n, k = np.asanyarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
     real = not np.any(k) and np.all(n >= 1)
     index = n if real else n + 1j * k
     e = (n - 1) * (n + 1) - k * k + (0 if real else 2j * n * k)

@@ -17,8 +17,9 @@ from .geometry import Geometry, rows
 from .scene import Scene
 
 LEAST_RADIUS = radians(0.5 / 60)  # half an arc minute: what the eye takes for a point
-MOST_DISC_POINTS = 48
-ENVIRONMENT_NODES, ENVIRONMENT_POINTS = 16, 192
+MOST_DISC_POINTS = 24
+ENVIRONMENT_NODES, ENVIRONMENT_POINTS = 16, 512
+EVEN_STEPS = np.array([0.7548776662466927, 0.5698402909980532])  # 1/p and 1/p² of p³ = p + 1: points that fill the square evenly
 FLIP = np.array([-1.0, -1.0, 1.0])  # a direction to its mirror direction
 
 
@@ -56,7 +57,7 @@ class Quadrature:
         towards, factors, pixel = [], [], []
         for place, (light, radius) in enumerate(zip(self.scene.lights, self.radii)):
             # as many points as a lobe needs to vary little from one to the next
-            count = int(np.clip(ceil(4 * (radius / self.width) ** 2), 1, MOST_DISC_POINTS))
+            count = int(np.clip(ceil(2 * (radius / self.width) ** 2), 1, MOST_DISC_POINTS))
             points = draws.cap(self.to_lights[:, place], radius if count > 1 else 0.0, count)
             towards.append(points.reshape(-1, 3))
             factors.append(np.full(len(self) * count, light.irradiance / count))
@@ -78,20 +79,23 @@ class Quadrature:
     @cached_property
     def around(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
         """Directions all around at a few view angles, the factor of each row, and (pixels, nodes) to interpolate."""
-        rng = np.random.default_rng([self.seed, 1])
-        angles = np.radians(np.linspace(0.0, 89.5, ENVIRONMENT_NODES))
+        angles = np.radians(89.5 * np.sin(np.linspace(0, pi / 2, ENVIRONMENT_NODES)))  # closer together toward grazing
         view = np.repeat(draws.from_angles(np.cos(angles), 0.0)[:, None, :], ENVIRONMENT_POINTS, axis=1)
-        u, v, which = rng.random((3, ENVIRONMENT_NODES, ENVIRONMENT_POINTS))
+        half = ENVIRONMENT_POINTS // 2
+        u, v = np.remainder(np.arange(half)[:, None] * EVEN_STEPS + 0.5 / half, 1.0).T
         mirror, spread = view * FLIP, 2 * self.width
-        towards = np.where(which[..., None] < 0.5, draws.from_angles(np.sqrt(1 - u), 2 * pi * v), draws.near(mirror, spread, u, v))
+        # half of the points even under the cosine, half about the mirror direction, each weighed by both densities
+        even = np.broadcast_to(draws.from_angles(np.sqrt(1 - u), 2 * pi * v), mirror[:, :half].shape)
+        towards = np.concatenate([even, draws.near(mirror[:, half:], spread, u, v)], axis=1)
         cosine = np.maximum(towards[..., 2], 0.0)
         density = 0.5 * cosine / pi + 0.5 * draws.near_density(towards, mirror, spread)
         factor = self.scene.environment / pi * cosine / density / ENVIRONMENT_POINTS * self.unit
         geom = rows(Geometry.from_vectors(towards.reshape(-1, 3), view.reshape(-1, 3)))
-        place = np.minimum(np.arccos(np.clip(self.to_camera[:, 2], 0, 1)) / angles[1], ENVIRONMENT_NODES - 1.0)
-        low = np.minimum(place.astype(int), ENVIRONMENT_NODES - 2)
+        theta = np.minimum(np.arctan2(np.hypot(self.to_camera[:, 0], self.to_camera[:, 1]), self.to_camera[:, 2]), angles[-1])
+        low = np.minimum(np.searchsorted(angles, theta, side="right") - 1, ENVIRONMENT_NODES - 2)
+        share = (theta - angles[low]) / (angles[low + 1] - angles[low])
         between, pixel = np.zeros((len(self), ENVIRONMENT_NODES)), np.arange(len(self))
-        between[pixel, low], between[pixel, low + 1] = low + 1 - place, place - low
+        between[pixel, low], between[pixel, low + 1] = 1 - share, share
         return geom, factor.ravel(), between
 
     def radiance(self, brdf) -> np.ndarray:
@@ -118,11 +122,26 @@ class Quadrature:
             other.__dict__[name] = (geom.at(wavelength), *rest)
         return other
 
-    def box(self) -> dict[str, tuple[float, float]]:
-        """Smallest and largest angle [deg] from each pixel to the centre of each light."""
+    def angles_deg(self, pixel: int) -> tuple[float, float, float]:
+        """theta_i, theta_r and phi [deg] of one pixel, to the light nearest to its mirror direction."""
+        nearest = np.argmin(np.sum((self.to_lights[pixel] - self.to_camera[pixel] * FLIP) ** 2, axis=1))
+        geom = Geometry.from_vectors(self.to_lights[pixel, nearest], self.to_camera[pixel])
+        phi = abs(float(np.degrees(draws.wrapped(np.radians(geom.phi_deg)))))
+        return round(float(geom.theta_i_deg), 2), round(float(geom.theta_r_deg), 2), round(phi, 2)
+
+    def some(self, pixels) -> "Quadrature":
+        """The same for some of the pixels, with their shares of the picture unchanged."""
+        return Quadrature(self.scene, self.seed, self.weights[pixels], self.to_camera[pixels], self.to_lights[pixels], self.width)
+
+    @cached_property
+    def centres(self) -> Geometry:
+        """Each pixel with the centre of each light, (pixels · lights,)."""
         pixel = np.repeat(np.arange(len(self)), self.to_lights.shape[1])
-        geom = Geometry.from_vectors(self.to_lights.reshape(-1, 3), self.to_camera[pixel])
-        geom = geom[geom.lit]
+        return Geometry.from_vectors(self.to_lights.reshape(-1, 3), self.to_camera[pixel])
+
+    def box(self) -> dict[str, tuple[float, float]]:
+        """Smallest and largest angle [deg] that occurs, of those a law is written in."""
+        geom = self.centres[self.centres.lit]
         angles = {
             "theta_i_deg": geom.theta_i_deg,
             "theta_r_deg": geom.theta_r_deg,

@@ -23,7 +23,7 @@ def horner(coefficients, t):
 
 def erfcx(x):
     """exp(x²) erfc(x) for x >= 0, to 5e-16."""
-    x = np.asarray(x, float)
+    x = np.asanyarray(x, float)
     return horner(ERFCX, (x - 3.75) / (x + 3.75)) / (1 + 2 * x)
 
 

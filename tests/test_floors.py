@@ -50,11 +50,13 @@ FLOORS = tuple(
         levenberg
         misfit
         parts
+        picture
         pixels
         predict
         pruning
         quadrature
         ranking
+        reach
         recommend
         saved
         scene

@@ -83,7 +83,7 @@ class Model:
     # mirror(geom, **values) -> reflectance of the ideal specular part at theta_i, dimensionless
     mirror: Callable[..., np.ndarray] | None = None
     derived: tuple[Derived, ...] = ()
-    # feature that a scene may not need -> the law without it, same parameters; see pruning
+    # features that a scene may not need, joined by "+" -> the law without them, same parameters; see parts
     without: Mapping[str, Callable[..., np.ndarray]] = field(default_factory=dict)
     pins: tuple[Pin, ...] = ()
     extremes: tuple[Extreme, ...] = ()

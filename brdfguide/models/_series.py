@@ -23,7 +23,7 @@ LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)
 
 def ln_series(g, y):
     """ln S to 3e-13, for g > 0 and y >= 0, which broadcast."""
-    g, y = np.broadcast_arrays(np.asarray(g, float), np.asarray(y, float))
+    g, y = np.broadcast_arrays(np.asanyarray(g, float), np.asanyarray(y, float), subok=True)
     shape, g, y = g.shape, g.ravel(), y.ravel()
     u, top, width = hump(g, y)
     result = np.empty(g.size)

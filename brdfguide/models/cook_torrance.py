@@ -49,9 +49,14 @@ def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarr
     return out
 
 
+def bare(geom: Geometry, alpha) -> np.ndarray:
+    """D/(4 cos θi cos θr) [1/sr]: the shape with no facet hidden by another."""
+    return beckmann(geom, alpha) / (4 * geom.cos_cos)
+
+
 def unmasked(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
-    """The law with no facet hidden by another: enough where neither light nor eye is low."""
-    return scale * optics.fresnel(geom.cos_d, n, k) * beckmann(geom, alpha) / (4 * geom.cos_cos)
+    """The law without masking: enough where neither light nor eye is low."""
+    return scale * optics.fresnel(geom.cos_d, n, k) * bare(geom, alpha)
 
 
 MODEL = Model(
@@ -62,7 +67,7 @@ MODEL = Model(
         *INDEX,
     ),
     gradient=gradient,
-    without={"fresnel": with_fixed_fresnel(shape), "masking": unmasked},
+    without={"fresnel": with_fixed_fresnel(shape), "masking": unmasked, "fresnel+masking": with_fixed_fresnel(bare)},
     summary="Gaussian facets, Fresnel, off-specular peak: rough metals and plastics of one roughness scale",
     pins=(
         Pin(in_plane(45, 50), {"alpha": 0.12, "n": 1.7, "k": 0.0, "scale": 0.8}, f=0.70576410454031793, source="50 digits"),

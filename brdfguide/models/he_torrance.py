@@ -13,15 +13,15 @@ Source: He, Torrance, Sillion and Greenberg 1991; unpolarised, isotropic, expone
 (the authors' errata), S by Smith's identity, G with unit vectors and x with wave vectors (decided by their limits).
 """
 
-from math import pi, sqrt
+from math import pi
 
 import numpy as np
 
 from .. import optics
 from ..geometry import Geometry, in_plane
-from ..special import erfcx, lambert_w
 from ._base import Derived, Extreme, Model, Parameter, Pin
 from ._series import ln_series
+from ._shadows import reduced, shadow_free, shadowing
 
 
 def brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
@@ -53,20 +53,7 @@ def _parts(geom, sigma, slope, n, k, scale):
     return factor * shadow_i * shadow_r * (geom.v2 / geom.v_z) ** 2, ln_series(g, y)
 
 
-def shadowing(cos, sin, slope):
-    """S/cos θ, finite at grazing, and K = tan θ erfc(ν). Beyond ν = 26 they are 1/cos θ and 0 to every digit."""
-    steep = np.maximum(2 * slope * sin, cos / 26)
-    nu = cos / steep
-    bell = np.exp(-nu * nu)
-    erfc = bell * erfcx(nu)
-    visible = sqrt(pi) * (2 - erfc)
-    return visible / (steep * (nu * visible + bell)), sin / cos * erfc
-
-
-def shadow_free(spread):
-    """Effective over true roughness: what the shadows leave, from K at both angles."""
-    return 1 / np.sqrt(1 + lambert_w(spread * spread / (8 * pi)))
-
+CHEAPER = tuple((*some, *waves) for some in ((), ("fresnel",), ("masking",), ("fresnel", "masking")) for waves in ((), ("series",), ("waves",)))[1:]
 
 MODEL = Model(
     __name__,
@@ -79,6 +66,7 @@ MODEL = Model(
         Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
     ),
     mirror=mirror,
+    without={"+".join(out): reduced(*out) for out in CHEAPER},
     derived=(Derived("tau", lambda sigma, slope, **_: sigma / slope, "um", "correlation length"),),
     pins=(
         Pin(in_plane(45, 50), {"sigma": 0.28, "slope": 0.16, "n": 1.7}, f=0.147046332277233921, source="the formulas above at 50 digits"),

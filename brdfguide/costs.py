@@ -1,0 +1,132 @@
+"""What an evaluation costs: time measured so that two laws can be compared, and operations that no machine changes.
+
+All laws take turns in every repeat, on the same directions and one thread; the least processor time of a thread counts,
+because whatever else a machine does can only add to it. Directions are fresh each time, as in a renderer.
+"""
+
+import time
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from .geometry import Geometry
+
+MOST_ROWS = 4096  # fit the processor's cache
+BATCHES, REPEATS = 9, 3  # the least of three repeats, nine times: their scatter is the error
+GROUPS = {
+    "exp": ("exp", "expm1", "log", "log1p", "sin", "cos", "tan", "arcsin", "arccos", "arctan", "arctan2", "log10", "exp2", "log2", "cbrt"),
+    "pow": ("power", "float_power"),
+    "div": ("divide", "reciprocal", "remainder", "fmod"),
+    "sqrt": ("sqrt", "hypot"),
+    "simple": ("add", "subtract", "multiply", "square", "negative", "absolute", "minimum", "maximum", "matmul", "conjugate"),
+}
+WORK = {"exp": 10.0, "pow": 20.0, "div": 2.0, "sqrt": 3.0, "simple": 1.0}  # of one addition, in arrays that fit the cache; ours
+GROUP_OF = {name: group for group, names in GROUPS.items() for name in names}
+
+
+@dataclass(frozen=True)
+class Time:
+    """Nanoseconds per direction, all channels together: the least of each batch of repeats."""
+
+    batches: tuple[float, ...]
+
+    @property
+    def ns(self) -> float:
+        return min(self.batches)
+
+    def __add__(self, other: "Time") -> "Time":
+        return Time(tuple(a + b for a, b in zip(self.batches, other.batches)))
+
+    def over(self, other: "Time") -> "Saving":
+        """How much longer this takes: batches are compared in pairs, since a busy machine slows both alike."""
+        pairs = np.subtract(self.batches, other.batches)
+        median = float(np.median(pairs))
+        # standard error of a median, from the median distance to it: a batch that something disturbed does not count
+        return Saving(median, float(1.2533 * 1.4826 * np.median(np.abs(pairs - median)) / np.sqrt(len(pairs))))
+
+
+@dataclass(frozen=True)
+class Saving:
+    """A difference of two times [ns], and its standard error."""
+
+    ns: float
+    stderr: float
+
+    @property
+    def measurable(self) -> bool:
+        """Whether it is more than twice its error."""
+        return self.ns > 2 * self.stderr
+
+
+NO_TIME = Time((0.0,) * BATCHES)
+
+
+def times(laws: Mapping[object, Callable], geom: Geometry, seconds: float = 0.6) -> dict[object, Time]:
+    """The time of each law, interleaved. Takes laws(geom) -> array; gives Time by the same keys.
+
+    Uses as many of the directions as `seconds` allow, at least for 1024 values.
+    """
+    start = time.thread_time()
+    for law in laws.values():
+        law(geom[:256])  # tables and caches warm
+    turn = (time.thread_time() - start) * BATCHES * REPEATS
+    geom = geom[: max(1024 // np.size(geom.wavelength), int(256 * seconds / max(turn, 1e-9)))][:MOST_ROWS]
+    least = {key: [] for key in laws}
+    for _ in range(BATCHES):
+        best = dict.fromkeys(laws, np.inf)
+        for _ in range(REPEATS):
+            for key, law in laws.items():
+                fresh = replace(geom)
+                start = time.thread_time_ns()
+                law(fresh)
+                best[key] = min(best[key], time.thread_time_ns() - start)
+        for key, each in best.items():
+            least[key].append(each / len(geom))
+    return {key: Time(tuple(map(float, each))) for key, each in least.items()}
+
+
+def compare(longer: Callable, shorter: Callable, geom: Geometry, most: int = 8) -> tuple[Time, Time]:
+    """The times of two laws side by side, measured again, up to `most` times, until their difference can be told."""
+    laws, long, short = {"longer": longer, "shorter": shorter}, (), ()
+    for _ in range(most):
+        each = times(laws, geom, seconds=0.12)
+        long, short = long + each["longer"].batches, short + each["shorter"].batches
+        if Time(long).over(Time(short)).measurable:
+            break
+    return Time(long), Time(short)
+
+
+def work(counted: Mapping[str, float]) -> float:
+    """Operations in the time of one addition: what orders candidates, the same on every machine and in every run."""
+    return sum(WORK[group] * number for group, number in counted.items())
+
+
+def operations(law: Callable, geom: Geometry) -> dict[str, float]:
+    """Operations for each direction: exp (with log and the like), pow, div, sqrt, simple (add, multiply, compare)."""
+    tally: Counter = Counter()
+
+    class Counted(np.ndarray):
+        def __array_ufunc__(self, ufunc, method, *inputs, out=None, **options):
+            bare, options = tuple(map(_bare, inputs)), {name: _bare(value) for name, value in options.items()}
+            if out is not None:
+                options["out"] = tuple(map(_bare, out))
+            result = getattr(ufunc, method)(*bare, **options)
+            tally[GROUP_OF.get(ufunc.__name__, "simple")] += max(map(np.size, (*bare, result)), default=0)
+            if out is not None:
+                return out[0] if len(out) == 1 else out
+            return result.view(Counted) if isinstance(result, np.ndarray) else result
+
+        def __array_function__(self, function, types, arguments, options):
+            result = super().__array_function__(function, types, arguments, options)
+            return result.view(Counted) if type(result) is np.ndarray else result
+
+    watched = {each.name: np.array(getattr(geom, each.name), float).view(Counted) for each in fields(geom) if each.name != "wavelength"}
+    law(replace(geom, **watched))
+    return {group: tally[group] / len(geom) for group in GROUPS}
+
+
+def _bare(value):
+    """An array of a subclass as a plain one; anything else as it is."""
+    return np.asarray(value) if isinstance(value, np.ndarray) else value
