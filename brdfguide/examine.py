@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from . import conventions, reciprocity, reflectance, retro, sampling
-from .errors import InputError
+from .errors import InputError, NoAnswer
 from .measurement import Finding, Measurement
 from .smoothness import noise, spikes
 
-__all__ = ["corrected", "examine", "noise", "outside", "spikes"]
+__all__ = ["corrected", "examine", "noise", "outside", "prepared", "spikes"]
 LARGE = 60_000  # directions beyond which a stratified subset is examined
 STATED = {"quantity-by-option", "quantity-stated"}
 SIDE_KNOWN = {"mirror-side", "mirror-side-turned", "mirror-side-by-option"}
@@ -34,8 +34,29 @@ def examine(measurement: Measurement) -> tuple[Finding, ...]:
 
 def corrected(measurement: Measurement, *, anyway: bool = False) -> Measurement:
     """The measurement with what is certain undone and noted. Raises InputError where the values contradict themselves, unless `anyway`."""
-    for _ in range(3):  # the side first, then the cosine, then the factor pi
-        found = {finding.code: finding for finding in examine(measurement)}
+    return _settled(measurement, anyway)[0]
+
+
+def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
+    """What a fit should see: `corrected`, spikes left out, every doubt among the findings.
+
+    Raises InputError where the values contradict themselves and NoAnswer for a surface outside the guide, unless `anyway`.
+    """
+    measurement, found = _settled(measurement, anyway)
+    beyond = outside(found)
+    if beyond and not anyway:
+        raise NoAnswer(f"{measurement.name or 'measurement'}: {beyond[0].text}; {beyond[0].consequence}; {beyond[0].option} answers all the same")
+    spiky = spikes(measurement) if measurement.solid_angle is None else np.zeros(len(measurement.geom), bool)
+    if np.any(spiky):
+        measurement = replace(measurement, brdf=np.where(spiky[:, None], np.nan, measurement.brdf))
+    return measurement.noting(*(finding for finding in found if finding.severity != "note"))
+
+
+def _settled(measurement: Measurement, anyway: bool):
+    """`corrected`, and what is found afterwards."""
+    for _ in range(4):  # the side first, then the cosine, then the factor pi
+        findings = examine(measurement)
+        found = {finding.code: finding for finding in findings}
         if "mirror-side-contradicted" in found and found["mirror-side-contradicted"].severity == "warning":
             note = replace(found["mirror-side-contradicted"], code="mirror-side-turned", severity="note")
             measurement = replace(measurement, geom=conventions.turned(measurement.geom)).noting(note)
@@ -45,11 +66,11 @@ def corrected(measurement: Measurement, *, anyway: bool = False) -> Measurement:
             measurement = conventions.as_brdf(measurement, "reflectance-factor").noting(_undone(found["reflectance-factor"], "divided by pi"))
         else:
             break
-    for finding in found.values():
+    for finding in findings:
         if finding.severity == "error" and not anyway:
             hint = f"; {finding.option} overrides this" if finding.option else ""
             raise InputError(f"{measurement.name or 'measurement'}: {finding.text}{hint}")
-    return measurement
+    return measurement, findings
 
 
 def outside(findings) -> tuple[Finding, ...]:

@@ -25,6 +25,17 @@ class Reciprocity:
 
 def test(measurement: Measurement, seed: int = 0) -> Reciprocity | None:
     """Compares up to 2500 directions with their exchange; None where fewer than 12 pairs can be formed."""
+    compared = pairs(measurement, seed)
+    if compared is None:
+        return None
+    lever, ratio = compared
+    power, stderr = _slope(lever, ratio)
+    spread = lambda values: float(np.exp(np.median(np.abs(values))))  # noqa: E731
+    return Reciprocity(len(ratio), power, stderr, spread(ratio), spread(ratio - lever))
+
+
+def pairs(measurement: Measurement, seed: int = 0):
+    """ln (cos theta_r / cos theta_i) and ln (value / exchanged value) of every pair; None for fewer than 12."""
     geom = measurement.geom
     rows = np.flatnonzero(np.any(measurement.usable, axis=1))
     if len(rows) < 12 or len(geom) > 200_000:
@@ -40,15 +51,11 @@ def test(measurement: Measurement, seed: int = 0) -> Reciprocity | None:
     ratio = np.full(both.shape, np.nan)
     ratio[both] = np.log(measurement.brdf[here][both] / measurement.brdf[there][both])
     counted = np.any(both, axis=1)
-    ratio = np.array([np.median(each[np.isfinite(each)]) for each in ratio[counted]])
+    ratio = np.nanmedian(ratio[counted], axis=1) if ratio.shape[1] > 1 else ratio[counted][:, 0]
     lever = np.log(geom.cos_r[here, 0] / geom.cos_i[here, 0])[counted]
     steady = np.abs(ratio) < 3.0  # beyond, a peak was met by its flank
     ratio, lever = ratio[steady], lever[steady]
-    if len(ratio) < 12:
-        return None
-    power, stderr = _slope(lever, ratio)
-    spread = lambda values: float(np.exp(np.median(np.abs(values))))  # noqa: E731
-    return Reciprocity(len(ratio), power, stderr, spread(ratio), spread(ratio - lever))
+    return (lever, ratio) if len(ratio) >= 12 else None
 
 
 def _slope(lever, ratio):

@@ -15,6 +15,15 @@ WavelengthOption = Annotated[str | None, Option("--wavelength", help="Channels [
 InPlaneOption = Annotated[bool, Option("--in-plane", help="Only the plane of incidence.", rich_help_panel=DATA)]
 ThetaMaxOption = Annotated[float | None, Option("--theta-max", help="Leave out angles beyond this [deg].", rich_help_panel=DATA)]
 
+AnywayOption = Annotated[bool, Option("--anyway", help="Answer also outside the guide and against contradictions.", rich_help_panel=DATA)]
+
+
+def read_examined(data, *options, anyway: bool = False):
+    """As `read`, with what is certainly wrong undone, spikes left out and every doubt noted; see `inspect`."""
+    from .. import examine
+
+    return examine.prepared(read(data, *options), anyway=anyway)
+
 
 def read(data, columns=None, unit=None, quantity=None, mirror_side=None, wavelength=None, in_plane=False, theta_max=None):
     """The measurement as these options say."""

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from ._data import ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read
+from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
 from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
 
@@ -29,6 +29,7 @@ def fit(
     unit: UnitOption = None,
     quantity: QuantityOption = None,
     mirror_side: MirrorSideOption = None,
+    anyway: AnywayOption = False,
     plot: Annotated[Path | None, Option("--plot", help="Draw data and models (png, svg or pdf).")] = None,
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
     json: JsonOption = False,
@@ -42,7 +43,7 @@ def fit(
 
     options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
     candidates = recommend.candidates(kind, expressions(models))
-    measurement = read(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max)
+    measurement = read_examined(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, anyway=anyway)
     with progress(2 * len(candidates), quiet) as tell:
         ranked = compare(measurement, candidates, options, tell)
     result = document.fit_document(ranked, measurement, timing=not no_timing)
