@@ -16,6 +16,7 @@ from ..geometry import Geometry, rows
 from ..models._base import Sum
 from . import _colour
 
+GLINT = 0.01  # of the light: a mirror weaker than this up to 60 degrees may be left out, and is said to be
 EXACT = 1e-4  # rms ln below which an export may call itself exact: float32 and printed digits are finer
 
 
@@ -70,12 +71,18 @@ class Surface:
         return mirror @ self.colour.matrix.T
 
     @cached_property
-    def mirror_most(self) -> float:
-        """The most that the ideal mirror reflects at 0 to 80 degrees."""
+    def mirror_most(self) -> tuple[float, float]:
+        """The most that the ideal mirror reflects at theta_i up to 60 and up to 80 degrees."""
         if not self.model.has_mirror:
-            return 0.0
+            return 0.0, 0.0
         theta = np.linspace(0.0, 80.0, 17)
-        return float(np.max(self.mirror_rgb(Geometry.from_degrees(theta, 0.0, theta, 180.0))))
+        reflected = self.mirror_rgb(Geometry.from_degrees(theta, 0.0, theta, 180.0)).max(axis=1)
+        return float(reflected[theta <= 60].max()), float(reflected.max())
+
+    @property
+    def has_mirror(self) -> bool:
+        """Whether the mirror is part of how the surface looks, not only of its glint at grazing."""
+        return "mirror" in self.laws and self.mirror_most[1] > 1e-6 or self.mirror_most[0] > GLINT
 
 
 @dataclass(frozen=True)
@@ -130,14 +137,19 @@ class Refused(NoAnswer):
         self.nearest = nearest
 
 
-def refuse_mirror(surface: Surface, target: str, most: float = 0.01) -> tuple[str, ...]:
-    """Refuses a surface whose ideal mirror carries more than `most`; otherwise the sentence that says what is lost."""
-    share = surface.mirror_most
-    if share > most:
-        raise Refused(target, f"its ideal mirror reflects up to {share:.2g} of the light, and the target holds only finite values", "mitsuba")
-    if share > 1e-6:
-        return (f"the ideal mirror, at most {share:.1g} of the light, is left out",)
-    return ()
+def refuse_mirror(surface: Surface, target: str) -> tuple[str, ...]:
+    """Refuses a surface with an ideal mirror for a target that holds finite values alone; a glint at grazing is a sentence."""
+    if surface.has_mirror:
+        why = f"its ideal mirror reflects up to {surface.mirror_most[1]:.2g} of the light beside a finite part, and the target holds one of the two"
+        raise Refused(target, why, "mitsuba")
+    return glint(surface)
+
+
+def glint(surface: Surface) -> tuple[str, ...]:
+    """The sentence for a mirror that is left out because it only shows beyond 60 degrees."""
+    if surface.mirror_most[1] <= 1e-6:
+        return ()
+    return (f"the mirror image that emerges beyond 60 deg, {surface.mirror_most[1]:.1g} of the light at 80 deg, is left out",)
 
 
 def header(surface: Surface, statement: Statement) -> list[str]:

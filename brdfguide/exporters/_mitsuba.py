@@ -12,21 +12,23 @@ import numpy as np
 from ..geometry import Geometry
 from ..optics import fresnel
 from . import _laws
-from ._base import Surface, number, rgb_numbers
+from ._base import EXACT, Statement, Surface, glint, number, rgb_numbers
 from ._choice import choose, fresnel_index, has_body, has_lobe, what_is_lost
 from ._directions import rms_ln
 
+FAINT = 1e-2  # of the mirror's brightest: what is darker is not seen beside it
 LEAST_BODY = 0.05  # of the paths, so that a dark body is still sampled
 
 
 def tree(surface: Surface, geom: Geometry | None, target: str):
     """The plugin tree and its Statement."""
     choice = choose(surface, geom, _candidates(surface)) if has_finite(surface) else None
-    mirror, mirror_rms = _mirror(surface) if surface.mirror_most > 1e-6 else (None, 0.0)
+    mirror, mirror_rms = _mirror(surface) if surface.has_mirror else (None, 0.0)
     if choice is None:
         statement = _mirror_statement(surface, target, mirror_rms)
         return _conductor(mirror, 1.0), statement
-    statement = choice.statement(target, surface, lost=what_is_lost(surface), mirror=mirror_rms)
+    lost = what_is_lost(surface) + (() if surface.has_mirror else glint(surface))
+    statement = choice.statement(target, surface, lost=lost, mirror=mirror_rms)
     values = choice.values
     bright = float(np.max(values["albedo"])) if "albedo" in values else 0.0
     lobe = "alpha" in values
@@ -70,15 +72,13 @@ def _mirror(surface: Surface):
     wanted = np.maximum(surface.mirror_rgb(geom), 0.0)
     n, k = fresnel_index(surface) or (np.full(3, 1.5), np.zeros(3))
     smooth = fresnel(geom.cos_i[:, None], n, k)
-    counted = wanted > 1e-6
+    counted = wanted > FAINT * wanted.max()
     wanted = np.where(counted, wanted, np.nan)
     factor = np.array([np.exp(np.nanmean(np.log(wanted[:, c] / smooth[:, c]))) if counted[:, c].any() else 0.0 for c in range(3)])
     return {"n": n, "k": k, "scale": factor}, rms_ln(np.maximum(smooth * factor, 1e-300), wanted)
 
 
 def _mirror_statement(surface, target, rms):
-    from ._base import EXACT, Statement
-
     return Statement(target, "exact" if rms <= EXACT else "refit", rms, 81, "the mirror direction at theta_i 0..80 deg", colour=surface.colour.how)
 
 

@@ -21,7 +21,7 @@ MIRROR = np.linspace(0.0, 80.0, 33)
 
 def is_smooth(surface: Surface) -> bool:
     """A mirror that reflects something, and at most a Lambertian body."""
-    return surface.laws in (["mirror"], ["lambertian", "mirror"]) and surface.mirror_most > 1e-6
+    return surface.laws in (["mirror"], ["lambertian", "mirror"]) and surface.has_mirror
 
 
 def choose_smooth(surface: Surface, laws) -> Choice:
@@ -32,7 +32,7 @@ def choose_smooth(surface: Surface, laws) -> Choice:
     mirrored = rows(Geometry.from_degrees(MIRROR, 0.0, MIRROR, 180.0))
     both = rows(Geometry.from_degrees(np.concatenate((angles[0], MIRROR)), 0.0, np.concatenate((angles[1], MIRROR)), 150.0))
     wanted = np.concatenate((surface.rgb(diffuse), surface.mirror_rgb(mirrored)))
-    wanted = np.where(wanted > 1e-6, wanted, np.nan)
+    wanted = np.where(wanted > 1e-2 * np.max(wanted), wanted, np.nan)
 
     def stacked(reflectance, under):
         def brdf(geom, **values):

@@ -1,0 +1,37 @@
+"""RGL `.bsdf`, by wavelength: a table of any model for Mitsuba's spectral variants and pbrt's `measured` material.
+
+Wavelengths are written as they are. One channel is written at both ends of the visible range, so that it is grey.
+Red, green and blue have no wavelength and are refused.
+"""
+
+import numpy as np
+
+from ..geometry import Geometry
+from ._base import EXACT, Export, Exporter, Refused, Statement, Surface, header, refuse_mirror
+from ._directions import chosen
+from ._tensor import Table, best_table, fields, packed
+
+VISIBLE_NM = np.array([360.0, 830.0])
+
+
+def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+    """Bytes and their Statement."""
+    if surface.colour.named and len(surface.channels) > 1:
+        raise Refused("rgl-spectral", f"channels {', '.join(surface.channels)} are colours, not wavelengths", "rgl")
+    lost = refuse_mirror(surface, "rgl-spectral")
+    geom, wanted, over = chosen(surface, geom, spectral=True)
+    nm = 1e3 * np.asarray(surface.wavelength, float)
+    order = np.argsort(nm)
+    table, rms = best_table(surface.spectral, geom, wanted)
+    spectra, nm = table.spectra[:, order], nm[order]
+    if len(nm) == 1:
+        spectra, nm = np.repeat(spectra, 2, axis=1), VISIBLE_NM
+    table = Table(table.theta_i, table.sigma, table.ndf, spectra)
+    shape = {"theta_i": len(table.theta_i), "half_vectors": spectra.shape[-1] ** 2, "wavelengths": len(nm)}
+    status = "lossy" if lost else "exact" if rms <= EXACT else "refit"
+    notes = ("a table, interpolated by its reader between its nodes",)
+    statement = Statement("rgl-spectral", status, rms, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, notes, "wavelengths as they are")
+    return Export(packed(fields(table, "\n".join(header(surface, statement)), "spectra", nm)), statement)
+
+
+EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor by wavelength: any model in pbrt's and spectral Mitsuba's measured", export)
