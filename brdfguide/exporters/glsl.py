@@ -1,0 +1,41 @@
+"""GLSL: `vec3 NAME_brdf(L, V, N)` [1/sr] and `vec3 NAME_mirror(cos_i)`, the model's own law with its numbers.
+
+Unit vectors, L toward the light, V toward the eye, N the normal; no cosine is included. Works from GLSL 1.30 and ES 3.0.
+"""
+
+from ..geometry import Geometry
+from ._base import Export, Exporter, Surface, header, identifier
+from ._dialect import colours, mirror_colours
+from ._exact import exact_statement
+from ._shader import functions, triple
+
+
+def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+    """GLSL text and its Statement."""
+    statement = exact_statement("glsl", surface, geom)
+    name, finite, mirror = identifier(surface.name), colours(surface), mirror_colours(surface)
+    comment = "\n".join("// " + line for line in header(surface, statement))
+    return Export(f"""{comment}
+
+{functions(finite + mirror)}
+
+vec3 {name}_brdf(vec3 L, vec3 V, vec3 N)
+{{
+    float ci = dot(N, L), cr = dot(N, V);
+    if (ci <= 0.0 || cr <= 0.0) return vec3(0.0);
+    vec3 l = L - ci * N, v = V - cr * N;
+    float q = dot(l + v, l + v), p = dot(l, v);
+    ci = clamp(ci, 1.0e-6, 1.0);
+    cr = clamp(cr, 1.0e-6, 1.0);
+    return {triple(finite, "vec3")};
+}}
+
+vec3 {name}_mirror(float cos_i)
+{{
+    float ci = clamp(cos_i, 1.0e-6, 1.0);
+    return {triple(mirror, "vec3")};
+}}
+""", statement)  # fmt: skip
+
+
+EXPORTER = Exporter(__name__, ".glsl", "GLSL functions, any model exactly", export)
