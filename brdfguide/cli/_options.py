@@ -16,6 +16,13 @@ ForceOption = Annotated[bool, Option("--force", help="Replace an existing output
 NoTimingOption = Annotated[bool, Option("--no-timing", help="Leave out times, so that two runs give the same bytes.")]
 
 
+def command_line() -> str:
+    """The command as typed, for the comment of what it wrote; the same command gives the same bytes."""
+    import shlex
+
+    return shlex.join(["brdfguide", *sys.argv[1:]])
+
+
 def print_json(document: dict) -> None:
     """One JSON object; NaN and infinity are null, since JSON has neither."""
     import json

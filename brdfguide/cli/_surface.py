@@ -1,16 +1,9 @@
 """What `export` reads: a fit's JSON, a material, or a model with parameters on the command line."""
 
-import shlex
-import sys
 from math import radians
 from pathlib import Path
 
 from ..errors import InputError, choices
-
-
-def command_line() -> str:
-    """The command as typed, for the comment of what it wrote; the same command gives the same bytes."""
-    return shlex.join(["brdfguide", *sys.argv[1:]])
 
 
 def read_surface(words: list[str], model: str | None, channel: str | None, name: str, command: str):

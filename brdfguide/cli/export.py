@@ -27,7 +27,8 @@ def export(
 ) -> None:
     """Write a model for a renderer, and say what that costs: exact, refit or lossy, with its rms ln error."""
     from .. import exporters
-    from ._surface import command_line, read_surface
+    from ._options import command_line
+    from ._surface import read_surface
 
     if to is None:
         targets = [exporters.get(each) for each in exporters.names()]

@@ -7,7 +7,7 @@ from typer import Argument, Option
 
 from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
-from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
+from ._options import JsonOption, NoTimingOption, QuietOption, command_line, print_json, progress, write_whole
 
 EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit data.csv -m lambertian+ggx --json > fit.json"
 
@@ -31,6 +31,7 @@ def fit(
     mirror_side: MirrorSideOption = None,
     anyway: AnywayOption = False,
     plot: Annotated[Path | None, Option("--plot", help="Draw data and models (png, svg or pdf).")] = None,
+    report: Annotated[Path | None, Option("--report", help="Write one page with everything (html).")] = None,
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
@@ -49,8 +50,12 @@ def fit(
     result = document.fit_document(ranked, measurement, timing=not no_timing)
     if residuals:
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
-    if plot:
+    if plot or report:
+        from ..report import page
         from ..report import plot as drawing
 
-        drawing.fit(result, ranked, measurement, plot)
+        if plot:
+            drawing.fit(ranked, measurement, plot)
+        if report:
+            page.write(result, report, drawing.page_figures(ranked, measurement), command_line(), [data])
     print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet))

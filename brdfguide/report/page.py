@@ -15,13 +15,13 @@ from pathlib import Path
 from .. import __version__
 from ..errors import InputError
 from . import sheet
+from .plain import plain
 
 PACKAGES = ("numpy", "scipy", "matplotlib", "pyyaml")
 
 
 def write(document: dict, path, figures=(), command: str = "", files=()) -> None:
-    """Write the page whole or not at all. `document` is as JSON has it, without NaN;
-    `figures` are (SVG or PNG file, caption); `files` are hashed for the last section. Raises InputError where it cannot be written."""
+    """Write the page whole or not at all. `figures` are (SVG or PNG file, caption); `files` are hashed for the last section. Raises InputError where it cannot be written."""
     path = Path(path)
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
     try:
@@ -34,6 +34,7 @@ def write(document: dict, path, figures=(), command: str = "", files=()) -> None
 
 def html(document: dict, figures=(), command: str = "", files=()) -> str:
     """The page as text; `figures` are (SVG or PNG file, caption)."""
+    document = plain(document)
     sections = [
         ("figures", "Figures", _figures(figures)),
         ("ranking", "Ranking", _ranking(document)),
@@ -56,8 +57,7 @@ def html(document: dict, figures=(), command: str = "", files=()) -> str:
 
 def _title(document) -> str:
     data = document.get("data") or {}
-    name = (document.get("material") or {}).get("name") or data.get("file") or "surface"
-    return f"Reflectance of {name.get('value') if isinstance(name, dict) else Path(str(name)).name}"
+    return f"Reflectance of {document.get('name') or Path(str(data.get('file') or 'a surface')).name}"
 
 
 def _answer(document) -> str:
@@ -134,16 +134,17 @@ def _parameters(document) -> str:
 
 def _candidates(document) -> str:
     lines = [([escape(each["model"]), " ".join(f"<code>{escape(key)}={_values(value)}</code>" for key, value in (each.get("start") or {}).items()),
-               escape(each.get("why", ""))], place == 0) for place, each in enumerate(document.get("candidates") or ())]  # fmt: skip
+               escape("; cannot: ".join(filter(None, (each.get("why", ""), "; ".join(each.get("cannot") or ())))))], place == 0) for place, each in enumerate(document.get("candidates") or ())]  # fmt: skip
     return _table(["model", "start from", "why"], lines) if lines else ""
 
 
 def _doubts(document) -> str:
     rows = document.get("ranking") or []
     pick = next((row for row in rows if _name(row) == document.get("recommended")), {})
-    doubts = list(document.get("warnings") or []) + list(pick.get("flags") or [])
+    doubts = list(document.get("warnings") or []) + list(document.get("conflicts") or []) + list(pick.get("flags") or [])
+    doubts += [{"code": "guess", "text": each["says"], "consequence": each.get("because")} for each in document.get("advice") or () if each.get("guess")]
     doubts += [each for each in (document.get("data") or {}).get("findings", ()) if each.get("severity") in ("warning", "error")]
-    return _findings(doubts) or ("<p>None was found.</p>" if rows else "")
+    return _findings(doubts) or "<p>None was found.</p>"
 
 
 def _material(document) -> str:
@@ -158,7 +159,8 @@ def _material(document) -> str:
             lines.append(([escape(key), _values(entry), ""], False))
     domain = document.get("domain") or {}
     status = f"<p>Inside the guide's domain: {escape(str(domain['status']))}. " + escape(" ".join(_sentence(r) for r in domain.get("reasons", ()))) + "</p>" if domain else ""
-    return (_table(["", "value", "from"], lines) if lines else "") + status
+    unused = "".join(f"<li>{escape(each['observation'])}: {escape(each['why'])}</li>" for each in document.get("unused") or ())
+    return (_table(["", "value", "from"], lines) if lines else "") + status + (f"<h3>Observed but of no use</h3><ul>{unused}</ul>" if unused else "")
 
 
 def _advice(document) -> str:

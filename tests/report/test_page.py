@@ -29,7 +29,8 @@ FIT = {
 }  # fmt: skip
 MATERIAL = {
     "schema": "brdfguide/recommend/1",
-    "material": {"name": "office paper", "n": {"value": 1.5, "from": "rule", "rule": "usual_dielectric_index", "section": "5.1"}},
+    "name": "office paper",
+    "material": {"n": {"value": 1.5, "from": "rule", "rule": "usual_dielectric_index", "section": "5.1"}},
     "domain": {"status": "flagged", "reasons": ["velvet is not a height field"]},
     "advice": [{"rule": "usual_dielectric_index", "section": "5.1", "says": "n = 1.5, the usual value", "because": "section 5.1", "sets": {"n": 1.5}}],
     "candidates": [{"model": "lambertian+he-torrance", "start": {"he-torrance.n": 1.5}, "why": "rises toward grazing"}],
