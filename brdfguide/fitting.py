@@ -12,8 +12,9 @@ from .measurement import Finding, Measurement
 from .misfit import SMALLEST, Layout, Metric, Misfit, evaluate, metric
 from .models import Sum
 
-SEARCH_SAMPLES = 1200  # directions on which the starts are followed
+SEARCH_SAMPLES = 800  # directions on which the starts are followed
 SEARCH_CHANNELS = 4
+NEAR_SAMPLES = 3000  # directions on which all channels come close
 POLISH_SAMPLES = 24_000  # directions on which the answer is settled; a larger table is thinned, its error is not
 ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
 
@@ -58,36 +59,65 @@ def label(model: Sum) -> str:
     return model.name + (" (metal)" if any(key.endswith(".k") for key in model.free) else "")
 
 
-def fit(model: Sum, measurement: Measurement, options: Options = Options()) -> Fit:
-    """The values of `model` closest to `measurement`, from the best two starts of a grid and from the user's own.
+@dataclass(frozen=True, eq=False)
+class Data:
+    """A measurement made ready for many fits: what each stage looks at, chosen once."""
+
+    whole: Measurement
+    used: np.ndarray  # rows of `whole` on which the answer is settled
+    settle: Measurement
+    settle_weights: np.ndarray  # (samples, channels)
+    near: Measurement  # enough directions to come close, all channels
+    near_weights: np.ndarray
+    search: Measurement  # few directions, few channels
+    search_weights: np.ndarray
+    orders: list  # of the rows of `settle`
+
+
+def prepare(measurement: Measurement, options: Options = Options()) -> Data:
+    """Chooses the directions to search on and to settle on. Raises InputError where there is nothing to fit."""
+    seen = np.flatnonzero(np.any(measurement.usable, axis=1))
+    if not len(seen):
+        raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
+    used = measurement if len(seen) == len(measurement.brdf) else measurement[seen]
+    weights = sample_weights(used, options.weights)
+    rows = starts.spread_rows(used, POLISH_SAMPLES)
+    settle = used if len(rows) == len(used.brdf) else used[rows]
+    thin, channels = starts.spread_rows(settle, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
+    search = settle[thin].of_channels(channels)
+    close = starts.spread_rows(settle, NEAR_SAMPLES)
+    weights, orders = weights[rows], uncertainty.orderings(settle)
+    return Data(
+        measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders
+    )  # fmt: skip
+
+
+def fit(model: Sum, measurement: Measurement | Data, options: Options = Options()) -> Fit:
+    """The values of `model` closest to a measurement, from the best two starts of a grid and from the user's own.
 
     Raises InputError where nothing can be fitted.
     """
     began = perf_counter()
+    data = measurement if isinstance(measurement, Data) else prepare(measurement, options)
     scale = metric(options.metric)
     model = _with_options(model, options)
-    seen = np.any(measurement.usable, axis=1)
-    if not np.any(seen):
-        raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
-    used = measurement if np.all(seen) else measurement[seen]
-    layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
-    weights = sample_weights(used, options.weights)
-
-    found, evaluations = _search(layout, used, scale, weights)
-    settle = starts.spread_rows(used, POLISH_SAMPLES)
+    layout = Layout(model, data.settle.brdf.shape[1], options.shape_per_channel)
+    found, evaluations = _search(layout, data, scale)
     start = found[0][0], _spread_over_channels(found[0][1], layout.channels)
+    weights = data.settle_weights
+    if len(data.near.brdf) < len(data.settle.brdf):
+        close = _descend(layout, data.near, scale, data.near_weights, start, 1e-5)
+        start, evaluations = (close.shared, close.own), evaluations + close.evaluations
     for _ in range(ROBUST_ROUNDS if options.robust else 1):
-        best = _descend(layout, used[settle], scale, weights[settle], start, 1e-10)
+        best = _descend(layout, data.settle, scale, weights, start, 1e-6)
         evaluations += best.evaluations
         start = best.shared, best.own
         if options.robust:
-            weights = _robust(weights, Misfit(layout, used, scale, weights)(best.shared, best.own, False), used)
-    values = layout.decode(best.shared, best.own)
-
-    residuals = ln_residuals(model, measurement, values)
-    part = residuals[seen][settle]
-    orders = uncertainty.orderings(used[settle])
-    correlation, score = uncertainty.serial_correlation(part, orders)
+            weights = _robust(weights, Misfit(layout, data.settle, scale, weights)(*start, False), data.settle)
+    values = layout.decode(*start)
+    residuals = ln_residuals(model, data.whole, values)
+    part = residuals[data.used]
+    correlation, score = uncertainty.serial_correlation(part, data.orders)
     stderr = uncertainty.standard_errors(layout, values, best.normal, best.cost, part, correlation)
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
     warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found)) if warning]
@@ -108,10 +138,11 @@ def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = 
     for name in (*options.fixed, *options.start):
         if not any(model.has(name) for model in models):
             raise choices("parameter of any candidate", name, sorted({key for model in models for key in model.parameters}))
+    data = prepare(measurement, options)
     fits = []
     for model in models:
         progress(label(model))
-        fits.append(fit(model, measurement, options))
+        fits.append(fit(model, data, options))
     return tuple(fits)
 
 
@@ -157,18 +188,14 @@ def _with_options(model: Sum, options: Options) -> Sum:
     return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
 
 
-def _search(layout: Layout, measurement: Measurement, scale: Metric, weights):
+def _search(layout: Layout, data: Data, scale: Metric):
     """Follows the grid's starts on few directions and channels: ends (shared, own, rms), best first, and the evaluations spent."""
-    picked = few_channels(layout.channels)
-    narrow = replace(layout, channels=len(picked))
-    thin = measurement.of_channels(picked)
-    rows = starts.spread_rows(thin, SEARCH_SAMPLES)
-    part, part_weights = thin[rows], weights[rows][:, picked]
+    narrow = replace(layout, channels=data.search.brdf.shape[1])
     ends, evaluations = [], 0
-    for start in starts.grid_starts(narrow, thin):
-        end = _descend(narrow, part, scale, part_weights, narrow.encode(start), 1e-6)
+    for start in starts.grid_starts(narrow, data.search):
+        end = _descend(narrow, data.search, scale, data.search_weights, narrow.encode(start), 1e-5)
         evaluations += end.evaluations
-        ends.append((end.shared, end.own, float(np.sqrt(end.cost / max(np.count_nonzero(part.usable), 1)))))
+        ends.append((end.shared, end.own, float(np.sqrt(end.cost / max(np.count_nonzero(data.search.usable), 1)))))
     return sorted(ends, key=lambda end: end[2]), evaluations
 
 

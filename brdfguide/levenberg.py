@@ -87,19 +87,18 @@ def minimise(
 
     r, j_shared, j_own = residuals(shared, own, True)
     cost = float(np.sum(r * r))
-    damping, grow, evaluations, converged, quiet = FIRST_DAMPING, 2.0, 1, False, 0
+    damping, grow, evaluations, converged = FIRST_DAMPING, 2.0, 1, False
     normal, g_shared, g_own = _normal(r, j_shared, j_own)
-    while evaluations < most and damping < MOST_DAMPING:
+    while not converged and evaluations < most and damping < MOST_DAMPING:
         stuck = ((shared <= low) & (g_shared > 0)) | ((shared >= high) & (g_shared < 0))
         own_stuck = ((own <= own_low) & (g_own > 0)) | ((own >= own_high) & (g_own < 0))
         step, own_step = _step(normal, g_shared, g_own, damping, stuck, own_stuck)
         trial, own_trial = np.clip(shared + step, low, high), np.clip(own + own_step, own_low, own_high)
         step, own_step = trial - shared, own_trial - own
-        expected = -_model_change(normal, g_shared, g_own, step, own_step)
-        small = _largest(step, shared) + _largest(own_step, own) < tolerance * 1e-2
-        if small:
+        if _largest(step, shared) + _largest(own_step, own) < tolerance * 1e-2:
             converged = True
             break
+        expected = -_model_change(normal, g_shared, g_own, step, own_step)
         if expected <= 0:  # a bound cut the step so that it climbs: a shorter one will not
             damping, grow = damping * grow, grow * 2
             continue
@@ -108,23 +107,18 @@ def minimise(
         cost_trial = float(np.sum(r_trial * r_trial))
         gain = (cost - cost_trial) / expected
         if np.isfinite(cost_trial) and gain > 0:
-            decrease = (cost - cost_trial) / max(cost, 1e-300)
+            # the promise was small and came true in part: the next one will be smaller still
+            converged = expected < tolerance * cost and gain > 0.1 and damping < 1.0
             shared, own, cost = trial, own_trial, cost_trial
             damping, grow = damping * max(1 / 3, 1 - (2 * gain - 1) ** 3), 2.0
-            quiet = quiet + 1 if decrease < tolerance else 0
-            if quiet == 2 or cost == 0:
-                converged = True
-                break
             r, j_shared, j_own = residuals(shared, own, True)
             normal, g_shared, g_own = _normal(r, j_shared, j_own)
+            converged = converged or cost == 0
         else:
+            # the quadratic model cannot promise a decrease that arithmetic could show
+            converged = expected < 1e-15 * cost
             damping, grow = damping * grow, grow * 2
-            # the model cannot promise a decrease that arithmetic could show
-            if expected < 1e-15 * cost:
-                converged = True
-                break
-    r, j_shared, j_own = residuals(shared, own, True)
-    return Minimum(shared, own, cost, _normal(r, j_shared, j_own)[0], evaluations, converged or damping >= MOST_DAMPING)
+    return Minimum(shared, own, cost, normal, evaluations, converged or damping >= MOST_DAMPING)
 
 
 def _normal(r, j_shared, j_own):

@@ -12,7 +12,7 @@ from .misfit import Layout, Misfit, metric
 from .ranking import Ranking, recommend
 
 FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
-SAMPLES = 800  # directions for the repeated fits
+SAMPLES = 500  # directions for the repeated fits
 IMITATION = 2.5  # held-out error over fitted error beyond which a model is said to imitate (ours)
 
 
@@ -25,15 +25,17 @@ class HeldOut:
     highest_theta_i_deg: float
 
 
-def held_out(fit: Fit, measurement: Measurement, options: Options = Options()) -> HeldOut | None:
-    """Refits without each group of incidence angles and predicts it; None with fewer than two incidence angles."""
-    used = _thinned(measurement)
+def held_out(fit: Fit, used: Measurement, options: Options = Options()) -> HeldOut | None:
+    """Refits without each group of incidence angles and predicts it; None with fewer than two incidence angles.
+
+    `used` is what `thinned` leaves of the measurement that the fit was made to.
+    """
     angles = used.geom.theta_i_deg[:, 0]
     folds = _folds(angles)
     if len(folds) < 2:
         return None
     layout = Layout(fit.model, used.brdf.shape[1], options.shape_per_channel)
-    picked = fitting.few_channels(measurement.brdf.shape[1])
+    picked = fitting.few_channels(max(np.size(value) for value in fit.values.values()))
     values = {key: value[picked] if np.ndim(value) else value for key, value in fit.values.items()}
     start = layout.encode(values)
     low, high = layout.bounds(layout.shared)
@@ -42,7 +44,7 @@ def held_out(fit: Fit, measurement: Measurement, options: Options = Options()) -
     for inside in folds:
         rest = used[~inside]
         misfit = Misfit(layout, rest, metric(options.metric), np.ones_like(rest.brdf))
-        end = levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-6, most=30)
+        end = levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-4, most=20)
         residuals = fitting.ln_residuals(fit.model, used[inside], layout.decode(end.shared, end.own))
         squares, counts = squares + np.nansum(residuals**2), counts + np.count_nonzero(np.isfinite(residuals))
         last = float(np.sqrt(np.nanmean(residuals**2)))
@@ -83,7 +85,7 @@ def imitation(fit: Fit, held: HeldOut | None) -> Finding | None:
     return Finding("imitates", text, "warning", "do not use it between or beyond these angles")
 
 
-def _thinned(measurement: Measurement) -> Measurement:
+def thinned(measurement: Measurement) -> Measurement:
     """Few enough directions and channels for repeated fits."""
     seen = measurement[np.any(measurement.usable, axis=1)]
     rows = starts.spread_rows(seen, SAMPLES)
@@ -113,10 +115,10 @@ def _peaks(measurement: Measurement, rows, channel: int, theta: float) -> tuple[
 
 def validated(ranking: Ranking, measurement: Measurement, options: Options = Options(), progress=lambda name: None) -> Ranking:
     """The same ranking with held-out errors and growth, and a warning for models that only imitate."""
-    rows = []
+    rows, few = [], thinned(measurement)
     for row in ranking.rows:
         progress(row.fit.name)
-        held = held_out(row.fit, measurement, options)
+        held = held_out(row.fit, few, options)
         warning = imitation(row.fit, held)
         warnings = row.warnings + ((warning,) if warning else ())
         rows.append(replace(row, held_out=held, growth=growth(row.fit, measurement), warnings=warnings))
