@@ -192,10 +192,10 @@ def predicted_gloss(model: Sum, values: Mapping) -> dict[int, float]:
 
 @lru_cache(maxsize=64)
 def cost(name: str) -> float:
-    """Nanoseconds per direction of a sum at its defaults, the best of three blocks of 4096, on this machine."""
+    """Nanoseconds per direction of a sum at its defaults, the best of three blocks of 2048, on this machine."""
     model = catalogue.get(name)
-    theta = np.linspace(1.0, 85.0, 64)
-    geom = rows(Geometry.from_degrees(theta[:, None], 0.0, theta[None, :], np.linspace(90.0, 270.0, 64)[None, :]))
+    theta = np.linspace(1.0, 85.0, 16)
+    geom = rows(Geometry.from_degrees(theta[:, None], 0.0, theta, np.linspace(90.0, 270.0, 8)[:, None, None]))
     values = model.defaults()
     model(geom, values)
     best = float("inf")

@@ -6,6 +6,7 @@ n_half = 2/alpha² - 2, n_mirror = n_half/4.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from math import atan, cos, pi, radians, sin, sqrt, tan
 
 import numpy as np
@@ -97,7 +98,11 @@ def reflectance(material: Material) -> tuple[float, ...]:
 def rise_of_fresnel(material: Material) -> float:
     """F at 75° over F at 10°, of the middle channel."""
     n, k = (material.n or (1.5,)), (material.k or (0.0,))
-    n, k = n[len(n) // 2], k[len(k) // 2]
+    return _fresnel_75_over_10(n[len(n) // 2], k[len(k) // 2])
+
+
+@lru_cache(maxsize=256)
+def _fresnel_75_over_10(n: float, k: float) -> float:
     low, high = optics.fresnel(np.cos(np.radians([10.0, 75.0])), n, k)
     return float(high / low) if low > 0 else 1.0
 

@@ -1,5 +1,6 @@
 """The index of refraction, measured before guessed (section 5.1), and what each simplification costs."""
 
+from functools import lru_cache
 from math import sqrt
 
 import numpy as np
@@ -17,6 +18,7 @@ def known_substance(material: Material) -> substances.Substance | None:
     return found if found and (material.kind is None or material.kind == found.kind) else None
 
 
+@lru_cache(maxsize=256)
 def constant_cost(n, k, highest: float = 85.0) -> tuple[float, float]:
     """(worst relative error, best constant) of a constant in place of F over 0..`highest` degrees."""
     f = optics.fresnel(np.cos(np.radians(ANGLES[ANGLES <= highest])), n, k)
@@ -24,6 +26,7 @@ def constant_cost(n, k, highest: float = 85.0) -> tuple[float, float]:
     return (high - low) / (high + low), 2 * low * high / (low + high)
 
 
+@lru_cache(maxsize=256)
 def index_cost(n: float, guess: float = 1.5) -> float:
     """The largest relative error, with its sign, of F with `guess` in place of `n` over 0..85 degrees."""
     cos_i = np.cos(np.radians(ANGLES))
