@@ -65,6 +65,7 @@ FLOORS = tuple(
         starts
         uncertainty
         validation
+        verdict
         """,
         """
         bench
