@@ -21,21 +21,19 @@ LONGEST = 4096
 LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)))]) + np.log(np.maximum(np.arange(LONGEST), 1))
 
 
-def ln_series(g, y):
-    """ln S to 3e-13, for g > 0 and y >= 0, which broadcast."""
-    g, y = np.broadcast_arrays(np.asanyarray(g, float), np.asanyarray(y, float), subok=True)
-    shape, g, y = g.shape, g.ravel(), y.ravel()
+def by_terms(g, y):
+    """ln S to 3e-13 with its derivatives by ln g and by y: three rows. Takes flat g > 0 and y >= 0."""
     u, top, width = hump(g, y)
-    result = np.empty(g.size)
+    result = np.empty((3, g.size))
     order = np.argsort(width, kind="stable")
     first_wide = np.searchsorted(width[order], WIDE)
     for start in range(0, first_wide, 512):  # neighbours in width need windows of one length
         part = order[start : min(start + 512, first_wide)]
-        result[part] = _over_orders(g[part], y[part], top[part], width[part])
+        result[:, part] = _over_orders(g[part], y[part], top[part], width[part])
     for start in range(first_wide, g.size, 512):
         part = order[start : start + 512]
-        result[part] = _integral(g[part], y[part], u[part], top[part], width[part])
-    return result.reshape(shape)
+        result[:, part] = _integral(g[part], y[part], u[part], top[part], width[part])
+    return result
 
 
 def hump(g, y):
@@ -52,8 +50,8 @@ def _over_orders(g, y, top, width):
     count = int(np.ceil(np.max(top + 12 * width + 14 - first)))
     m = first[:, None] + np.arange(count)
     exponent = m * np.log(g)[:, None] - LN_FACTORIAL_M[m] - y[:, None] / m
-    highest = exponent.max(axis=1)
-    return highest - g + np.log(np.exp(np.maximum(exponent - highest[:, None], -60.0)).sum(axis=1))
+    highest, term, total = _scaled(exponent)
+    return highest - g + np.log(total), (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total
 
 
 def _integral(g, y, u, top, width):
@@ -68,6 +66,13 @@ def _integral(g, y, u, top, width):
     one_over_m = 1 / (g * r)
     stirling = one_over_m * horner(STIRLING, one_over_m**2)
     exponent = -g * psi - y[:, None] * one_over_m - 1.5 * l - stirling + (p - 1) * ln_stretch
+    highest, term, total = _scaled(exponent)
+    value = highest + np.log(total * (NODES[1] - NODES[0])) + np.log(width) - 1.5 * np.log(g[:, 0]) - 0.5 * log(2 * pi)
+    return value, (term * (g * np.expm1(l))).sum(axis=1) / total, -(term * one_over_m).sum(axis=1) / total
+
+
+def _scaled(exponent):
+    """The largest exponent of each row, the terms relative to it, their sum."""
     highest = exponent.max(axis=1)
-    total = np.exp(np.maximum(exponent - highest[:, None], -60.0)).sum(axis=1)
-    return highest + np.log(total * (NODES[1] - NODES[0])) + np.log(width) - 1.5 * np.log(g[:, 0]) - 0.5 * log(2 * pi)
+    term = np.exp(np.maximum(exponent - highest[:, None], -60.0))
+    return highest, term, term.sum(axis=1)

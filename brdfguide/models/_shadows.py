@@ -7,7 +7,7 @@ import numpy as np
 from .. import optics
 from ..geometry import Geometry
 from ..special import erfcx, lambert_w
-from ._series import ln_series
+from ._series_cells import ln_series
 
 
 def shadowing(cos, sin, slope):

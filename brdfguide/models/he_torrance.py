@@ -20,7 +20,7 @@ import numpy as np
 from .. import optics
 from ..geometry import Geometry, in_plane
 from ._base import Derived, Extreme, Model, Parameter, Pin
-from ._series import ln_series
+from ._series_cells import ln_series
 from ._shadows import reduced, shadow_free, shadowing
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from brdfguide.geometry import Geometry, in_plane
 from brdfguide.models import he_torrance as he
-from brdfguide.models._series import hump, ln_series
+from brdfguide.models._series import by_terms, hump
+from brdfguide.models._series_cells import ln_series
 from brdfguide.special import erfcx, lambert_w
 
 from ..conftest import ROOT
