@@ -26,6 +26,7 @@ from .scene import Scene
 FIRST_PIXELS, MOST_PIXELS = 1500, 12000
 MOST_WORK = 4e8  # additions to judge all ways to keep all terms once: some half second
 MOST_CUTS = 256  # tried one by one; with more, parts are left out greedily
+RGB_UM = (0.61, 0.55, 0.46)  # dominant wavelengths of red, green and blue
 FRESH_FACTOR = 1.5  # how far the worst pixel of a picture drawn afresh may lie above the tolerance
 STRAY = (0.9, 1.1)
 NEAR_MISS = 8.0  # times the tolerance: worth refitting the shapes too
@@ -128,11 +129,11 @@ def prune(
 
 
 def _wavelengths(values: Mapping, wavelength, geom_of_data) -> np.ndarray:
-    """One for each channel [µm]."""
+    """One for each channel [µm]; three channels without any are red, green and blue."""
+    shapes = [np.shape(np.atleast_1d(value)) for value in values.values()]
     if wavelength is None:
-        wavelength = 0.55 if geom_of_data is None else geom_of_data.wavelength
-    channels = np.broadcast_shapes(np.shape(np.atleast_1d(wavelength)), *(np.shape(np.atleast_1d(value)) for value in values.values()))
-    return np.array(np.broadcast_to(np.asarray(wavelength, float), channels))
+        wavelength = RGB_UM if geom_of_data is None and (3,) in shapes else 0.55 if geom_of_data is None else geom_of_data.wavelength
+    return np.array(np.broadcast_to(np.asarray(wavelength, float), np.broadcast_shapes(np.shape(np.atleast_1d(wavelength)), *shapes)))
 
 
 def _picture(parts: Parts, scene: Scene, size: int, seed: int, width: float) -> Picture:

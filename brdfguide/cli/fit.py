@@ -8,6 +8,7 @@ from typer import Argument, Option
 from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
 from ._options import JsonOption, NoTimingOption, QuietOption, command_line, print_json, progress, write_whole
+from ._scene import SceneOption, of_ranking
 
 EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit data.csv -m lambertian+ggx --json > fit.json"
 
@@ -30,6 +31,7 @@ def fit(
     quantity: QuantityOption = None,
     mirror_side: MirrorSideOption = None,
     anyway: AnywayOption = False,
+    scene: SceneOption = None,
     plot: Annotated[Path | None, Option("--plot", help="Draw data and models (png, svg or pdf).")] = None,
     report: Annotated[Path | None, Option("--report", help="Write one page with everything (html).")] = None,
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
@@ -48,6 +50,7 @@ def fit(
     with progress(2 * len(candidates), quiet) as tell:
         ranked = compare(measurement, candidates, options, tell)
     result = document.fit_document(ranked, measurement, timing=not no_timing)
+    in_scene = of_ranking(scene, ranked, measurement, result, not no_timing, quiet) if scene else ""
     if residuals:
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
     if plot or report:
@@ -58,4 +61,4 @@ def fit(
             drawing.fit(ranked, measurement, plot)
         if report:
             page.write(result, report, drawing.page_figures(ranked, measurement), command_line(), [data])
-    print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet))
+    print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet) + in_scene)

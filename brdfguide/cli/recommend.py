@@ -6,6 +6,7 @@ from typing import Annotated
 from typer import Argument, Exit, Option
 
 from ._options import JsonOption, NoTimingOption, QuietOption, note, print_json
+from ._scene import SceneOption, of_answer
 
 EXAMPLES = "Examples: brdfguide recommend porcelain | brdfguide recommend my_surface.yaml scan.csv --explain"
 
@@ -13,6 +14,7 @@ EXAMPLES = "Examples: brdfguide recommend porcelain | brdfguide recommend my_sur
 def recommend(
     inputs: Annotated[list[str], Argument(metavar="INPUT...", help="A description (YAML, - for standard input, or a name of `brdfguide materials`), a measurement, or both.")],
     models: Annotated[str | None, Option("--models", help="Try these sums, such as ggx,lambertian+ward.")] = None,
+    scene: SceneOption = None,
     explain: Annotated[bool, Option("--explain", help="Every rule, also those that were silent.")] = False,
     anyway: Annotated[bool, Option("--anyway", help="Answer also outside the guide's domain.")] = False,
     no_timing: NoTimingOption = False,
@@ -35,10 +37,13 @@ def recommend(
             described.append(material.read_material(shelf.path(each)))
     answers = [advisor.recommend(each, anyway, names) for each in described]
     documents = [advice.document(each, not no_timing) for each in answers]
+    texts = [advice.text(each, explain, not no_timing) for each in answers]
+    if scene:
+        texts = [text + of_answer(scene, answer, document, not no_timing, quiet) for text, answer, document in zip(texts, answers, documents)]
     if json:
         print_json(documents[0] if len(documents) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": documents})
     else:
-        print("\n\n".join(advice.text(each, explain, not no_timing) for each in answers))
+        print("\n\n".join(texts))
     outside = [each for each in answers if not each.candidates]
     for each in outside:
         note(f"brdfguide: {each.material.name or 'this surface'} is outside the guide's domain: {each.reasons[0].says}; --anyway answers all the same", quiet)

@@ -1,0 +1,44 @@
+"""`--scene`, shared by the commands that recommend a model: what the scene does not need is left out."""
+
+from typing import Annotated
+
+from typer import Option
+
+from ._options import progress
+
+SceneOption = Annotated[str | None, Option("--scene", help="A scene's YAML, or `default`: leave out what it does not need.")]
+STEPS = 4
+
+
+def prune(scene: str, model, values, *, data=None, wavelength=None, quiet: bool = False):
+    """The model without what the scene in the file `scene` does not need."""
+    from .. import pruning
+    from .. import scene as scenes
+
+    where = scenes.DEFAULT if scene == "default" else scenes.read_scene(scene)
+    with progress(STEPS, quiet) as tell:
+        return pruning.prune(model, values, where, geom_of_data=data, wavelength=wavelength, progress=tell)
+
+
+def of_ranking(scene: str, ranked, measurement, result: dict, timing: bool, quiet: bool) -> str:
+    """The text about the recommended fit in a scene; `result` gets the same as `scene` and `left_out`."""
+    from ..report import pruned
+
+    best = ranked.recommended.fit
+    found = prune(scene, best.model, best.values, data=measurement.geom, quiet=quiet)
+    result |= {"scene": pruned.document(found, timing), "left_out": pruned.left_out(found, timing)}
+    return "\n\n" + pruned.text(result["scene"], not quiet)
+
+
+def of_answer(scene: str, answer, document: dict, timing: bool, quiet: bool) -> str:
+    """The same about the first candidate of a recommendation."""
+    if not answer.candidates:
+        return ""
+    from numpy import array
+
+    from ..report import pruned
+
+    pick = answer.candidates[0]
+    values = {key: array(value) if isinstance(value, tuple) else value for key, value in pick.start.items()}
+    document["scene"] = pruned.document(prune(scene, pick.model, values, quiet=quiet), timing)
+    return "\n\n" + pruned.text(document["scene"], not quiet)
