@@ -20,7 +20,7 @@ def run(*words, status=0):
 
 def test_fit_with_a_scene_says_what_can_go_and_where_that_holds():
     text = run(*FIT, PRODUCT).stdout
-    assert "leave out ggx.masking of" in " ".join(text.split())
+    assert "ggx.masking of lambertian+ggx" in " ".join(text.split())
     assert "<- picked" in text
     assert "holds for theta_i" in text
     assert "beyond the measured directions" in " ".join(text.split())
