@@ -9,7 +9,9 @@ import numpy as np
 
 from ..geometry import Geometry, in_plane, rows
 
-FAINTEST = 1e-4  # of the brightest value at the same incidence: what lies below nobody sees, and a logarithm would count it in full
+# what is below both is not seen beside the highlight, and a logarithm would count it in full
+FAINTEST = 1e-3  # of the brightest value at the same incidence
+DARKEST = 1e-3  # 1/sr: a body of albedo 0.003
 WIDTHS = np.array([0.3, 0.6, 1.0, 1.7, 3.0])
 NEAR = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0])  # degrees from the mirror direction
 
@@ -52,10 +54,10 @@ def chosen(surface, geom: Geometry | None, spectral: bool = False) -> tuple[Geom
     for theta_i in np.unique(incidence):
         here = incidence == theta_i
         brightest = np.max(np.where(counted[here], rgb[here], 0.0), axis=0)
-        counted[here] &= rgb[here] >= FAINTEST * brightest
+        counted[here] &= rgb[here] >= np.minimum(FAINTEST * brightest, DARKEST)
     kept = counted.any(axis=1)
     wanted = np.where(counted[kept], rgb[kept], np.nan)
-    return geom[kept], wanted, f"{int(kept.sum())} {words}, brighter than 1e-4 of that incidence's peak"
+    return geom[kept], wanted, f"{int(kept.sum())} {words}, brighter than 1e-3 of that incidence's peak or 1e-3/sr"
 
 
 def rms_ln(law: np.ndarray, wanted: np.ndarray) -> float:
