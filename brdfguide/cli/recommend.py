@@ -7,7 +7,7 @@ from typer import Argument, Exit, Option
 
 from ..errors import InputError
 from ._options import JsonOption, NoTimingOption, QuietOption, note, print_json
-from ._scene import SceneOption, of_answer
+from ._scene import SceneOption, of_answer, of_ranking
 
 EXAMPLES = "Examples: brdfguide recommend porcelain | brdfguide recommend my_surface.yaml scan.csv --explain"
 
@@ -30,7 +30,7 @@ def recommend(
     described, measured = _sorted(inputs)
     answers = [advisor.recommend(each, anyway, names) for each in described]
     if measured:
-        _with_measurements(answers, measured, names, anyway, explain, no_timing, json, quiet)
+        _with_measurements(answers, measured, names, scene, anyway, explain, no_timing, json, quiet)
         return
     documents = [advice.document(each, not no_timing) for each in answers]
     texts = [advice.text(each, explain, not no_timing) for each in answers]
@@ -71,7 +71,7 @@ def _sorted(inputs: list[str]):
     return described, measured
 
 
-def _with_measurements(answers, measured, names, anyway, explain, no_timing, json, quiet) -> None:
+def _with_measurements(answers, measured, names, scene, anyway, explain, no_timing, json, quiet) -> None:
     """Guidelines choose and start, the fit decides, disagreements are shown."""
     from .. import agreement, verdict
     from .. import recommend as advisor
@@ -82,7 +82,7 @@ def _with_measurements(answers, measured, names, anyway, explain, no_timing, jso
     from ._options import progress
 
     told = answers[0] if answers else None
-    results = []
+    results, pruned = [], []
     for path in measured:
         data = read_examined(path, anyway=anyway)
         judged = verdict.verdict(data)
@@ -94,10 +94,12 @@ def _with_measurements(answers, measured, names, anyway, explain, no_timing, jso
         with progress(2 * len(sums), quiet) as tell:
             ranked = compare(data, sums, progress=tell)
         differ = agreement.disagreements(told, judged, ranked, data) if told else ()
-        results.append(measured_advice.document(told, judged, differ, document.fit_document(ranked, data, timing=not no_timing), not no_timing))
+        fitted = document.fit_document(ranked, data, timing=not no_timing)
+        pruned.append(of_ranking(scene, ranked, data, fitted, not no_timing, quiet) if scene else "")
+        results.append(measured_advice.document(told, judged, differ, fitted, not no_timing))
     if json:
         print_json(results[0] if len(results) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": results})
         return
     if told:
         print(advice.text(told, explain, not no_timing), end="\n\n")
-    print("\n\n".join(f"{measured_advice.text(each)}\n\n{page.ranking_text(each, notes=not quiet)}" for each in results))
+    print("\n\n".join(f"{measured_advice.text(each)}\n\n{page.ranking_text(each, notes=not quiet)}{scene}" for each, scene in zip(results, pruned)))

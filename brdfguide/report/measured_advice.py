@@ -13,6 +13,7 @@ def document(told: Recommendation | None, judged: Verdict, differ, fitted: dict,
         "schema": "brdfguide/recommend/1",
         "measured_verdict": {"kind": judged.kind, "evidence": list(judged.evidence), "numbers": dict(judged.numbers)},
         "disagreements": [finding(each) for each in differ],
+        "left_out": said.get("left_out", []) + fitted["left_out"],
     }
     return {**said, **fitted, **own} | ({"recommended_by_guidelines": said["recommended"]} if told else {})
 
