@@ -33,7 +33,8 @@ def dhr(surface, theta_i_deg, values, wavelength=WAVELENGTH_UM, step: float = ST
 
 def _one(surface, theta_i_deg, values, wavelength, step):
     geom, weights = directions(theta_i_deg, step)
-    geom = geom.at(wavelength)
+    if not np.array_equal(wavelength, geom.wavelength):
+        geom = geom.at(wavelength)
     f = surface(geom, values) if hasattr(surface, "terms") else surface(geom, **values)
     return weights @ np.broadcast_to(f, (len(weights), np.shape(f)[-1]))
 

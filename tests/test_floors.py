@@ -35,7 +35,6 @@ FLOORS = tuple(
         reflectance
         retro
         sampling
-        simplified
         smoothness
         """,
         """
@@ -44,7 +43,6 @@ FLOORS = tuple(
         models
         """,
         """
-        agreement
         compare
         costs
         examine
@@ -74,6 +72,9 @@ FLOORS = tuple(
         check
         exporters
         preview
+        audited
+        laws
+        limits
         references
         report
         """,

@@ -50,14 +50,18 @@ def _parts(geom: Geometry, s2):
 
 
 def _rays(geom: Geometry):
-    """C2 cos φ tan β + C3 (1 - |cos φ|) tan((α + β)/2), per s²/(s² + 0.09); sin α tan β cos φ = (i_xy·r_xy)/max(cos)."""
-    larger, smaller = np.maximum(geom.theta_i, geom.theta_r), np.minimum(geom.theta_i, geom.theta_r)
+    """C2 cos φ tan β + C3 (1 - |cos φ|) tan((α + β)/2), per s²/(s² + 0.09).
+
+    sin α tan β cos φ = (i_xy·r_xy)/max(cos θ); sin α - (2β/π)³ from the elevations, since both are near 1 at grazing.
+    """
+    elevation_i, elevation_r = np.arctan2(geom.cos_i, geom.sin_i), np.arctan2(geom.cos_r, geom.sin_r)
+    lower, u = np.minimum(elevation_i, elevation_r), (2 / pi) * np.maximum(elevation_i, elevation_r)
     cos_phi = np.cos(np.radians(geom.phi_deg))
-    tan_smaller = np.minimum(geom.tan_i, geom.tan_r)
-    away = np.minimum(cos_phi, 0.0) * tan_smaller * (2 * smaller / pi) ** 3
+    toward = np.maximum(geom.dot_xy, 0.0) / np.maximum(geom.cos_i, geom.cos_r)
+    away = np.minimum(cos_phi, 0.0) * np.minimum(geom.tan_i, geom.tan_r) * (u * (3 - u * (3 - u)) - 2 * np.sin(0.5 * lower) ** 2)
     tan_mean = (geom.sin_i + geom.sin_r) / geom.v_z
-    sideways = 0.125 * (4 * larger * smaller / pi**2) ** 2 * (1 - np.abs(cos_phi)) * tan_mean
-    return 0.45 * (geom.dot_xy / np.maximum(geom.cos_i, geom.cos_r) - away) + sideways
+    sideways = 0.125 * ((1 - (2 / pi) * lower) * (1 - u)) ** 2 * (1 - np.abs(cos_phi)) * tan_mean
+    return 0.45 * (toward + away) + sideways
 
 
 def _grooves(geom: Geometry):

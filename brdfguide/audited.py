@@ -1,0 +1,94 @@
+"""A fitted surface under audit: the laws at its own parameters, and what a renderer will meet, in sentences."""
+
+import numpy as np
+
+from . import check, hemisphere
+from .geometry import in_plane, rows
+from .laws import SCAN, jacobian_condition
+from .measurement import Finding
+from .saved import Saved
+
+ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 75.0, 80.0, *np.arange(82.0, 90.0), 89.5, 89.9, 89.99)
+ENERGY = 1.001  # reflectance above which a surface gains energy; the quadrature is right to 3e-4
+NARROW = 2.0  # full width [deg] below which blind sampling of directions misses a lobe
+RIDGE = 1e3  # condition number beyond which single parameters mean little
+
+
+def audit(saved: Saved):
+    """(checks, findings) of one saved fit."""
+    brdf = lambda geom: saved.model(geom.at(saved.wavelength), saved.values)  # noqa: E731
+    breaks = {law: f"{term.label} {why}" for term in saved.model.terms for law, why in term.model.breaks.items()}
+    checks = tuple(check.audit_surface(saved.model.name, brdf, breaks))
+    findings = (*_energy(saved), *_exchange(brdf), *_rise(brdf), *_lobe(brdf), *_spike(saved), *_bounds(saved), *_ridge(saved))
+    return checks, findings
+
+
+def _energy(saved):
+    """Where more comes out than goes in, mirror reflection included."""
+    dhr = hemisphere.dhr(saved.model, ANGLES, saved.values, saved.wavelength)
+    if saved.model.has_mirror:
+        dhr = dhr + saved.model.mirror(rows(in_plane(np.array(ANGLES), 0.0)).at(saved.wavelength), saved.values)
+    most = dhr.max(axis=1)
+    too_much = np.flatnonzero(most > ENERGY)
+    if not too_much.size:
+        place = int(np.argmax(most))
+        text = f"never sends more than it receives: at most {most[place]:.3g}, at {ANGLES[place]:g} deg"
+        yield Finding("energy-kept", text, numbers=(("greatest_reflectance", float(most[place])), ("theta_i_deg", ANGLES[place])))
+        return
+    first, place = too_much[0], int(np.argmax(most))
+    text = f"gains energy {'at every angle' if first == 0 else f'beyond {ANGLES[max(first - 1, 0)]:g} deg'}: sends {most[place]:.3g} times what it receives at {ANGLES[place]:g} deg"
+    consequence = "a path tracer brightens at every bounce there; clamp the albedo or choose a bounded law such as ward-gmd or ggx"
+    yield Finding("gains-energy", text, "warning", consequence, numbers=(("beyond_deg", ANGLES[max(first - 1, 0)]), ("greatest_reflectance", float(most[place]))))
+
+
+def _exchange(brdf):
+    f, swapped = brdf(SCAN), brdf(SCAN.swapped())
+    ratio = float(np.max(np.where(swapped > 1e-12, f / np.maximum(swapped, 1e-12), 1.0)))
+    if ratio > 1.001:
+        text = f"not reciprocal: exchanging light and eye changes it up to {ratio:.3g} times below 85 deg"
+        yield Finding("not-reciprocal", text, "warning", "light and camera tracing will not give the same image", numbers=(("greatest_ratio", ratio),))
+
+
+def _rise(brdf):
+    """How the mirror peak still grows where no fit had data."""
+    low, high = (float(np.max(brdf(rows(in_plane(np.array([angle]), angle))))) for angle in (75.0, 89.9))
+    if low > 0 and high / low > 30:
+        text = f"grows {high / low:.3g}-fold from 75 deg to 89.9 deg in the mirror direction"
+        yield Finding("steep-rise", text, "note", "bright rims and fireflies on silhouettes; sample by the lobe's own density", numbers=(("growth", high / low),))
+
+
+def _lobe(brdf):
+    """The full width of the lobe about its peak at 45°, if it is too narrow for blind sampling."""
+    offsets = np.concatenate([-np.geomspace(44, 1e-4, 120), [0.0], np.geomspace(1e-4, 44, 120)])
+    f = brdf(rows(in_plane(45.0, 45 + offsets))).max(axis=1)
+    above = f > 0.5 * f.max()
+    width = float(offsets[above].max() - offsets[above].min())
+    if width < NARROW:
+        text = f"its lobe at 45 deg is {width:.2g} deg wide"
+        yield Finding("narrow-lobe", text, "note", "uniform sampling of directions will miss it; small lights need its own density", numbers=(("full_width_deg", width),))
+
+
+def _spike(saved):
+    if saved.model.has_mirror:
+        near, far = (float(np.max(saved.model.mirror(rows(in_plane(np.array([angle]), angle)).at(saved.wavelength), saved.values))) for angle in (0.0, 80.0))
+        if max(near, far) > 1e-6:
+            text = f"a mirror reflection of {near:.2g} at the normal and {far:.2g} at 80 deg stands beside the lobe"
+            yield Finding("mirror-part", text, "note", "needs a perfect-specular lobe of its own; a finite BRDF cannot show it")
+
+
+def _bounds(saved):
+    for key, p in saved.model.parameters.items():
+        value = np.atleast_1d(saved.values.get(key, p.default))
+        if p.free and np.any((value <= p.low) | (value >= p.high)) and not (p.linear and np.all(value > p.low)):
+            text = f"{key} stands at its bound {p.low if np.any(value <= p.low) else p.high:g}"
+            yield Finding(f"at-bound:{key}", text, "note", "the law was stretched to its limit here")
+
+
+def _ridge(saved):
+    """Whether the parameters can be told apart by a scan in the plane of incidence; the first channel stands for all."""
+    values = {key: float(np.ravel(value)[0]) for key, value in saved.values.items()}
+    origins = {key: p.origin for key, p in saved.model.parameters.items() if (p.free or key in saved.model.free) and values.get(key, 0.0) != p.origin}
+    number = jacobian_condition(lambda v: saved.model(SCAN.at(saved.wavelength[:1]), v), values, origins)
+    if number > RIDGE:
+        text = f"its parameters cannot be told apart: condition number {number:.2g}"
+        yield Finding("ridge", text, "warning", "move them together; a single one means little", numbers=(("condition", number),))

@@ -1,0 +1,136 @@
+"""The audit holds for our models and fails bad ones: clamps, wrong derivatives, outdated declarations."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from brdfguide import audited, check, models
+from brdfguide.cli import main
+from brdfguide.models import ward
+from brdfguide.saved import Saved
+
+QUICK = ("references", "finite", "positive", "horizon", "reciprocity", "rotation", "normal", "grazing", "n to 1", "k to infinity", "gradient", "condition")
+
+
+def verdicts(model, wanted=QUICK):
+    return {each.law: each.verdict for each in check.audit_term(model, wanted)}
+
+
+def test_no_model_fails_a_law_that_it_does_not_declare():
+    found = list(check.audit(wanted=QUICK))
+    assert {each.model for each in found} == {*models.names(), "fresnel"}
+    assert [(each.model, each.law, each.worst) for each in found if each.verdict == "fails"] == []
+
+
+def test_narrow_laws_hold_for_a_narrow_selection():
+    assert {each.model for each in check.audit(["lambertian+ward"], ("energy", "smooth", "continuity"))} == {"lambertian", "ward"}
+
+
+def test_clamped_cosine_fails_at_the_references():
+    def clamped(geom, *, rho_s, alpha):
+        lobe = np.exp(-geom.tan2_h / alpha**2) / (4 * np.pi * alpha**2)
+        return rho_s * lobe / np.sqrt(np.maximum(geom.cos_i * geom.cos_r, 1e-6))
+
+    assert verdicts(replace(ward.MODEL, brdf=clamped))["references"] == "fails"
+
+
+def test_epsilon_beside_the_width_fails_references_and_derivatives():
+    def clamped(geom, *, rho_s, alpha):
+        return ward.brdf(geom, rho_s=rho_s, alpha=np.sqrt(alpha**2 + 1e-4))
+
+    found = verdicts(replace(ward.MODEL, brdf=clamped))
+    assert found["references"] == "fails" and found["gradient"] == "fails"
+
+
+def test_wrong_jacobian_fails():
+    def wrong(geom, names, **values):
+        return {"alpha": 1.001 * ward.gradient(geom, names, **values)["alpha"]}
+
+    found = verdicts(replace(ward.MODEL, gradient=wrong))
+    assert found.pop("gradient") == "fails"
+    assert set(found.values()) == {"holds"}
+
+
+def test_switch_between_two_formulas_fails_continuity():
+    def switched(geom, *, rho_s, alpha):
+        return np.where(np.asarray(alpha) > 0.1, 1.0, 1.0001) * ward.brdf(geom, rho_s=rho_s, alpha=alpha)
+
+    assert verdicts(replace(ward.MODEL, brdf=switched), ("continuity",)) == {"continuity": "fails"}
+    assert verdicts(ward.MODEL, ("continuity",)) == {"continuity": "holds"}
+
+
+def test_overflow_and_division_by_zero_fail():
+    def naive(geom, *, rho_s, alpha):
+        return ward.brdf(geom, rho_s=rho_s, alpha=alpha) / (1 - np.cos(geom.theta_r))
+
+    assert verdicts(replace(ward.MODEL, brdf=naive), ("normal",)) == {"normal": "fails"}
+
+
+def test_gain_of_energy_must_be_declared_and_a_declaration_must_be_true():
+    (gain,) = check.audit_term(replace(ward.MODEL, breaks={}), ("energy",))
+    assert gain.verdict == "fails" and gain.at["theta_i_deg"] > 89
+    (outdated,) = check.audit_term(replace(ward.MODEL, breaks={"reciprocity": "no"}), ("reciprocity",))
+    assert outdated.verdict == "fails" and "it holds" in outdated.reason
+
+
+def saved(name, **values):
+    surface = models.get(name)
+    keyed = {**surface.defaults(), **{key.replace("__", "."): value for key, value in values.items()}}
+    return Saved(surface, keyed, ("a",), np.array([0.55]), {})
+
+
+def findings(*args, **values):
+    return {found.code: found for found in audited.audit(saved(*args, **values))[1]}
+
+
+def test_fitted_surface_that_gains_energy_says_beyond_which_angle():
+    text = findings("phong", phong__ks=3.3422538, phong__exponent=20.0)["gains-energy"].text
+    assert text.startswith("gains energy beyond 75 deg") and "times what it receives at 89.99 deg" in text
+    assert findings("phong", phong__ks=5.0, phong__exponent=20.0)["gains-energy"].text.startswith("gains energy at every angle")
+
+
+def test_fitted_surface_says_what_a_renderer_meets():
+    found = findings("lambertian+phong", phong__exponent=1e5, phong__ks=100.0)
+    assert "exchanging light and eye" in found["not-reciprocal"].text
+    assert found["narrow-lobe"].numbers[0][1] == pytest.approx(2 * np.degrees(np.sqrt(2 * np.log(2) / 1e5)), rel=0.1)
+    kept = findings("lambertian+mirror", lambertian__albedo=0.5)
+    assert "mirror-part" in kept and "gains-energy" in kept  # 0.5 and a mirror that nears 1 at grazing
+    assert "energy-kept" in findings("lambertian+ggx", lambertian__albedo=0.2, ggx__alpha=0.3)
+
+
+def test_ridge_is_named_where_two_parameters_do_the_same():
+    assert "ridge" in findings("phong+phong", **{"phong.1.exponent": 20.0, "phong.2.exponent": 20.0})
+    assert "ridge" not in findings("lambertian+ward")
+
+
+def run(argv, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(argv)
+    captured = capsys.readouterr()
+    return stop.value.code, captured.out, captured.err
+
+
+def test_command_prints_a_table_or_one_object(capsys):
+    status, out, err = run(["check", "lambertian"], capsys)
+    assert status == 0 and err == "" and out.splitlines()[0].split() == ["model", "law", "cases", "worst", "error", "allowed", "verdict"]
+    assert out.splitlines()[-1].endswith("0 broken as declared, 0 fail")
+    status, out, err = run(["check", "lambertian", "--json"], capsys)
+    document = json.loads(out)
+    assert document["schema"] == "brdfguide/check/1" and document["models"][0]["model"] == "lambertian"
+    assert {"law", "cases", "worst_error", "at", "verdict"} <= document["models"][0]["checks"][0].keys()
+
+
+def test_command_ends_with_1_where_a_law_fails_undeclared(capsys, monkeypatch):
+    monkeypatch.setattr(check, "audit", lambda expressions: check.audit_term(replace(ward.MODEL, breaks={}), ("energy", "finite")))
+    status, out, err = run(["check"], capsys)
+    assert status == 1 and err == "brdfguide: 1 undeclared failures: ward energy\n"
+    assert "fails     ward energy" not in out and "fails  ward energy" in out
+
+
+def test_command_ends_with_2_for_an_unknown_model_and_for_two_subjects(capsys, tmp_path):
+    status, out, err = run(["check", "wrad"], capsys)
+    assert (status, out) == (2, "") and "did you mean ward" in err
+    status, out, err = run(["check", "ward", "--fit", str(tmp_path / "fit.json")], capsys)
+    assert (status, out) == (2, "") and "either models or --fit" in err
