@@ -27,7 +27,7 @@ def examine(measurement: Measurement) -> tuple[Finding, ...]:
         return (Finding("no-usable-values", text, "error", numbers=(("values", measurement.brdf.size),)),)
     looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
     spiky = spikes(looked_at)
-    found = [_coverage(looked_at), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, spiky)]
+    found = [_coverage(looked_at), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
     found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_noise(looked_at)]
     return tuple(found)
 
@@ -71,6 +71,13 @@ def _settled(measurement: Measurement, anyway: bool):
             hint = f"; {finding.option} overrides this" if finding.option else ""
             raise InputError(f"{measurement.name or 'measurement'}: {finding.text}{hint}")
     return measurement, findings
+
+
+def drawn(measurement: Measurement):
+    """What the picture of an inspection shows: the directions, their spikes, exchanged pairs, reflectance."""
+    looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
+    spiky = spikes(looked_at)
+    return looked_at, spiky, reciprocity.pairs(looked_at), reflectance.measured(measurement, spiky if looked_at is measurement else None)
 
 
 def outside(findings) -> tuple[Finding, ...]:
@@ -134,7 +141,7 @@ def _side(m: Measurement):
         yield Finding("mirror-side", f"mirror direction at phi_r - phi_i = 180: {side.text}", numbers=numbers)
 
 
-def _quantity(m: Measurement, spiky):
+def _quantity(m: Measurement, level):
     """Reciprocity and energy, and what they say about the quantity."""
     said = {finding.code for finding in m.findings}
     known = said & (STATED | {"reflectance-factor"})
@@ -145,7 +152,6 @@ def _quantity(m: Measurement, spiky):
         numbers += [("power_of_cosine", tested.power), ("power_stderr", tested.power_stderr)] if tested.power is not None else []
         weighted = tested.power is not None and abs(tested.power - 1) < 0.3 and tested.corrected_ratio < tested.ratio
         yield _reciprocity(tested, weighted and not said & (STATED | {"cosine-weighted"}), tuple(numbers))
-    level = reflectance.measured(m, spiky)
     if level is None:
         text = "the coverage does not tell the hemispherical reflectance: a factor of pi could not be noticed"
         yield Finding("energy-untold", text, option="--quantity")

@@ -86,13 +86,17 @@ def minimise(
     own_low, own_high = np.broadcast_to(own_low, own.shape), np.broadcast_to(own_high, own.shape)
 
     r, j_shared, j_own = residuals(shared, own, True)
-    cost = float(np.sum(r * r))
+    cost = _sum_of_squares(r)
     damping, grow, evaluations, converged = FIRST_DAMPING, 2.0, 1, False
     normal, g_shared, g_own = _normal(r, j_shared, j_own)
+    scale, own_scale = np.full(shared.shape, 1e-30), np.full(own.shape, 1e-30)
     while not converged and evaluations < most and damping < MOST_DAMPING:
         stuck = ((shared <= low) & (g_shared > 0)) | ((shared >= high) & (g_shared < 0))
         own_stuck = ((own <= own_low) & (g_own > 0)) | ((own >= own_high) & (g_own < 0))
-        step, own_step = _step(normal, g_shared, g_own, damping, stuck, own_stuck)
+        # the steepest that each parameter has been: a step into a flat region is not taken for free (Moré 1978)
+        scale = np.maximum(scale, np.diag(normal.shared))
+        own_scale = np.maximum(own_scale, np.einsum("cqq->cq", normal.own))
+        step, own_step = _step(normal, g_shared, g_own, damping * scale, damping * own_scale, stuck, own_stuck)
         trial, own_trial = np.clip(shared + step, low, high), np.clip(own + own_step, own_low, own_high)
         step, own_step = trial - shared, own_trial - own
         if _largest(step, shared) + _largest(own_step, own) < tolerance * 1e-2:
@@ -104,7 +108,7 @@ def minimise(
             continue
         r_trial = residuals(trial, own_trial, False)
         evaluations += 1
-        cost_trial = float(np.sum(r_trial * r_trial))
+        cost_trial = _sum_of_squares(r_trial)
         gain = (cost - cost_trial) / expected
         if np.isfinite(cost_trial) and gain > 0:
             # the promise was small and came true in part: the next one will be smaller still
@@ -121,6 +125,13 @@ def minimise(
     return Minimum(shared, own, cost, normal, evaluations, converged or damping >= MOST_DAMPING)
 
 
+def _sum_of_squares(r) -> float:
+    """Infinite where a residual is not a number, so that the step is rejected."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        total = float(np.sum(r * r))
+    return total if total == total else float("inf")
+
+
 def _normal(r, j_shared, j_own):
     """JᵀJ and Jᵀr by channel, the shared part summed."""
     p = j_shared.shape[2]
@@ -130,12 +141,12 @@ def _normal(r, j_shared, j_own):
     return Normal(squares[:, :p, :p].sum(0), squares[:, :p, p:], squares[:, p:, p:]), gradient[:, :p].sum(0), gradient[:, p:]
 
 
-def _step(normal: Normal, g_shared, g_own, damping, stuck, own_stuck):
+def _step(normal: Normal, g_shared, g_own, damping, own_damping, stuck, own_stuck):
     """The damped Gauss-Newton step; parameters stuck at a bound stay."""
     shared, between, own = normal.shared.copy(), normal.between.copy(), normal.own.copy()
     p, q = shared.shape[0], own.shape[1]
-    shared[range(p), range(p)] += damping * np.maximum(np.diag(shared), 1e-30)
-    own[:, range(q), range(q)] += damping * np.maximum(own[:, range(q), range(q)], 1e-30)
+    shared[range(p), range(p)] += damping
+    own[:, range(q), range(q)] += own_damping
     g_shared, g_own = np.where(stuck, 0.0, g_shared), np.where(own_stuck, 0.0, g_own)
     shared[stuck, :], shared[:, stuck] = 0.0, 0.0
     shared[stuck, stuck] = 1.0

@@ -123,19 +123,17 @@ def recommend(described: Material, anyway: bool = False, names=None) -> Recommen
     return Recommendation(filled, advice, consultation.silent, status, verdict, evidence, shown, left_out, _unused(described))
 
 
-def for_fit(recommendation: Recommendation) -> tuple[Sum, ...]:
-    """The sums to fit: all that its kind allows, its own picks first and started where the guidelines say.
-
-    An index that is known by name or measured is not fitted.
-    """
-    kind = recommendation.material.kind if recommendation.material.kind in KINDS else None
+def for_fit(recommendation: Recommendation, kind: str | None = None) -> tuple[Sum, ...]:
+    """The sums to fit: all that its kind allows, or `kind` as the instrument tells; its own picks first, started where the guidelines say."""
+    kind = kind or (recommendation.material.kind if recommendation.material.kind in KINDS else None)
     picks = {}
     for each in recommendation.candidates:
         numbers = {key: value for key, value in each.start.items() if np.ndim(value) == 0}
         sum_ = as_metal(each.model) if kind == "metal" else each.model
         picks[each.model.name] = replace(sum_, start={**numbers, **{key: sum_.start[key] for key in sum_.free}})
     rest = [each for each in candidates(kind) if each.name not in picks]
-    return tuple(each for each in picks.values() if not each.has_mirror or len(each.terms) > 1) + tuple(rest)
+    finite = [each for each in picks.values() if {term.model.name for term in each.terms} != {"mirror"}]
+    return tuple(finite) + tuple(rest)
 
 
 def _status(advice) -> str:

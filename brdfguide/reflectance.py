@@ -24,10 +24,12 @@ class Reflectance:
 
 def measured(measurement: Measurement, without=None) -> Reflectance | None:
     """Reflectance at up to seven incidences with enough samples; None where the coverage does not tell. `without` masks rows."""
+    if len(measurement.geom) > 200_000:
+        return _of_half_difference_cells(measurement)
     usable = measurement.usable if without is None else measurement.usable & ~without[:, None]
     geom, level = measurement.geom, np.where(usable, np.log(np.where(usable, measurement.brdf, 1.0)), np.nan)
     rows = np.flatnonzero(np.any(usable, axis=1))
-    if len(rows) < 12 or len(geom) > 200_000:
+    if len(rows) < 12:
         return None
     channel = int(np.argmax(np.sum(np.where(usable, measurement.brdf, 0.0) * geom.cos_r, axis=0)))
     found, limits, how = {}, [], "plane" if measurement.in_plane else "hemisphere"
@@ -54,6 +56,27 @@ def _incidences(measurement: Measurement, rows):
     angles = angles[(counts >= 12) & (angles < 80.5)]
     for angle in angles[np.unique(np.linspace(0, len(angles) - 1, INCIDENCES).astype(int))] if len(angles) else []:
         yield float(angle), rows[np.abs(theta_i - angle) < 0.06]
+
+
+def _of_half_difference_cells(measurement: Measurement) -> Reflectance | None:
+    """Of a whole table whose cells are even in the root of theta_h, in theta_d and in phi_d, such as MERL's.
+
+    The mean of f over the cells of a band of incidences, each weighted by cos theta_r and by the directions it covers,
+    sin theta_h √theta_h sin theta_d cos theta_d, times pi.
+    """
+    geom = measurement.geom
+    channel = int(np.argmax(np.sum(np.where(measurement.usable, measurement.brdf, 0.0), axis=0)))
+    good = measurement.usable[:, channel] & (geom.theta_r_deg[:, 0] < 80.5)
+    theta_h = np.arctan(np.sqrt(geom.tan2_h[good, 0]))
+    cos_d = np.minimum(geom.cos_d[good, 0], 1.0)
+    weight = geom.cos_r[good, 0] * np.sin(theta_h) * np.sqrt(theta_h) * np.sqrt(1 - cos_d**2) * cos_d
+    theta_i, value = geom.theta_i_deg[good, 0], measurement.brdf[good, channel]
+    found = {}
+    for angle in range(10, 80, 10):
+        band = np.abs(theta_i - angle) < 1.5
+        if np.count_nonzero(band) > 500:
+            found[float(angle)] = float(np.pi * np.sin(np.radians(80)) ** 2 * np.average(value[band], weights=weight[band]))
+    return Reflectance(tuple(found), tuple(found.values()), 80.0, "hemisphere") if found else None
 
 
 def _of_hemisphere(geom, level, reach: float) -> float | None:

@@ -35,6 +35,7 @@ FLOORS = tuple(
         reflectance
         retro
         sampling
+        simplified
         smoothness
         """,
         """
@@ -43,6 +44,7 @@ FLOORS = tuple(
         models
         """,
         """
+        agreement
         compare
         costs
         examine

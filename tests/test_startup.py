@@ -15,6 +15,11 @@ MAY_NOT_LOAD = {
     "roughness --angle 80": (*HEAVY, "typer", "rich", "json", "dataclasses", "re", "typing"),
     "roughness --angle 80 --json": (*HEAVY, "typer", "rich", "json", "dataclasses", "re", "typing"),
     "roughness --help": HEAVY,
+    "albedo --patch white": HEAVY,
+    "materials porcelain": ("numpy", "scipy", "matplotlib"),
+    "index gold": ("scipy", "yaml", "matplotlib"),
+    "gloss --at-60 80": ("scipy", "yaml", "matplotlib"),
+    "recommend porcelain": ("scipy", "matplotlib", "rich"),
 }
 RUN = """
 import sys

@@ -15,6 +15,7 @@ WavelengthOption = Annotated[str | None, Option("--wavelength", help="Channels [
 InPlaneOption = Annotated[bool, Option("--in-plane", help="Only the plane of incidence.", rich_help_panel=DATA)]
 ThetaMaxOption = Annotated[float | None, Option("--theta-max", help="Leave out angles beyond this [deg].", rich_help_panel=DATA)]
 
+AveragePhiOption = Annotated[bool, Option("--average-phi-i", help="Average an anisotropic file over the sample's rotation.", rich_help_panel=DATA)]
 AnywayOption = Annotated[bool, Option("--anyway", help="Answer also outside the guide and against contradictions.", rich_help_panel=DATA)]
 
 
@@ -25,11 +26,11 @@ def read_examined(data, *options, anyway: bool = False):
     return examine.prepared(read(data, *options), anyway=anyway)
 
 
-def read(data, columns=None, unit=None, quantity=None, mirror_side=None, wavelength=None, in_plane=False, theta_max=None):
+def read(data, columns=None, unit=None, quantity=None, mirror_side=None, wavelength=None, in_plane=False, theta_max=None, average_phi_i=False):
     """The measurement as these options say."""
     from .. import formats
 
-    options = {"columns": columns, "unit": unit, "quantity": quantity, "mirror_side": mirror_side}
+    options = {"columns": columns, "unit": unit, "quantity": quantity, "mirror_side": mirror_side, "average_phi_i": average_phi_i}
     given = {name: value for name, value in options.items() if value is not None}
     return formats.read(data, wavelength=wavelengths(wavelength), in_plane=in_plane, theta_max=theta_max, **given)
 

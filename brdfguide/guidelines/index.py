@@ -1,37 +1,19 @@
 """The index of refraction, measured before guessed (section 5.1), and what each simplification costs."""
 
-from functools import lru_cache
 from math import sqrt
 
 import numpy as np
 
-from .. import gloss, optics, substances
+from .. import gloss, optics, simplified, substances
 from ..material import Material
 from ._base import Advice, rule
 
-ANGLES = np.arange(0.0, 86.0)  # degrees over which a simplification's cost is stated
 LIQUIDS = set("water ice liquid juice milk wine beer oil blood cola coffee tea vodka whiskey snow cream".split())
 
 
 def known_substance(material: Material) -> substances.Substance | None:
     found = substances.find(material.composition) if material.composition else None
     return found if found and (material.kind is None or material.kind == found.kind) else None
-
-
-@lru_cache(maxsize=256)
-def constant_cost(n, k, highest: float = 85.0) -> tuple[float, float]:
-    """(worst relative error, best constant) of a constant in place of F over 0..`highest` degrees."""
-    f = optics.fresnel(np.cos(np.radians(ANGLES[ANGLES <= highest])), n, k)
-    low, high = float(f.min()), float(f.max())
-    return (high - low) / (high + low), 2 * low * high / (low + high)
-
-
-@lru_cache(maxsize=256)
-def index_cost(n: float, guess: float = 1.5) -> float:
-    """The largest relative error, with its sign, of F with `guess` in place of `n` over 0..85 degrees."""
-    cos_i = np.cos(np.radians(ANGLES))
-    error = optics.fresnel(cos_i, guess) / optics.fresnel(cos_i, n) - 1
-    return float(error[np.argmax(np.abs(error))])
 
 
 @rule("5.1")
@@ -112,7 +94,7 @@ def usual_dielectric_index(material: Material) -> Advice | None:
     """Most dielectrics lie near n = 1.5."""
     if material.n is not None or material.kind != "dielectric":
         return None
-    says = f"n = 1.5, the usual value; over 0 to 85° F is then wrong by {index_cost(1.34):+.0%} should it be water's 1.34, {index_cost(1.6):+.0%} should it be 1.6"
+    says = f"n = 1.5, the usual value; over 0 to 85° F is then wrong by {simplified.index_cost(1.34):+.0%} should it be water's 1.34, {simplified.index_cost(1.6):+.0%} should it be 1.6"
     return Advice(says, "a dielectric without index, F0 or a known name", sets={"n": (1.5,), "k": (0.0,)}, guess=True)
 
 
@@ -131,7 +113,7 @@ def constant_reflectance(material: Material) -> Advice | None:
     if material.kind != "metal" or material.n is None or "usual_metal_index" in material.filled_by.values():
         return None
     n, k = material.n[len(material.n) // 2], material.k[len(material.k) // 2]
-    (to_75, constant), (to_85, _) = constant_cost(n, k, 75), constant_cost(n, k, 85)
+    (to_75, constant), (to_85, _) = simplified.constant_cost(n, k, 75), simplified.constant_cost(n, k, 85)
     return Advice(f"a constant F of {constant:.3f} is wrong by at most {to_75:.1%} up to 75°, {to_85:.1%} up to 85°, and F goes to 1 at grazing", "n and k")
 
 

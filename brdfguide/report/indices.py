@@ -4,7 +4,7 @@ import numpy as np
 
 from .. import optical_constants, optics, substances
 from ..errors import InputError, choices
-from ..guidelines.index import constant_cost, index_cost
+from ..simplified import constant_cost, equivalent_cost, index_cost
 
 METAL_F0 = 0.2  # above it Eq. 2 hardly speaks of a dielectric (diamond: 0.172)
 
@@ -65,6 +65,8 @@ def _entry(name: str, n: float, k: float, wavelength: float | None, source: str,
     entry |= {f"fresnel_{angle}_deg": float(value) for angle, value in zip((60, 75, 80, 85), f)}
     if metal:
         (to_75, constant), (to_85, _) = constant_cost(n, k, 75), constant_cost(n, k, 85)
+        equivalent, up_to = equivalent_cost(n, k)
+        entry["eq2"] = {"n": equivalent, "within_5_percent_to_deg": up_to}
         entry["simplified"] = {"as": "constant", "value": constant, "worst_to_75_deg": to_75, "worst_to_85_deg": to_85}
     elif n > 1:
         entry["simplified"] = {"as": "n = 1.5", "value": 1.5, "worst_to_85_deg": index_cost(n)}
@@ -88,7 +90,7 @@ def _line(each: dict) -> tuple[str, ...]:
     if simple is None:
         cost = "-"
     elif simple["as"] == "constant":
-        cost = f"constant {simple['value']:.3f}: {simple['worst_to_75_deg']:.1%} to 75 deg, {simple['worst_to_85_deg']:.1%} to 85"
+        cost = f"constant {simple['value']:.3f}: {simple['worst_to_75_deg']:.1%} to 75 deg, {simple['worst_to_85_deg']:.1%} to 85; Eq. 2's n = {each['eq2']['n']:.3g} errs by 5% from {each['eq2']['within_5_percent_to_deg']:g} deg"
     else:
         cost = f"n = 1.5: {simple['worst_to_85_deg']:+.0%} to 85 deg"
     wavelength = "-" if each["wavelength_nm"] is None else f"{each['wavelength_nm']:.7g}"
