@@ -74,10 +74,16 @@ def _answer(document) -> str:
         if pick.get("held_out_rms_ln") is not None:
             text += f" At incidence angles left out of the fit {pick['held_out_rms_ln']:.3g}."
         text += f"</p><p>{escape(document.get('because', ''))}</p>"
-        return f'<div class="answer">{text}{outside}</div>'
+        free = {key: entry["value"] for key, entry in pick["parameters"].items() if not entry.get("derived")}
+        return f'<div class="answer">{text}<p>{_typed(free)}</p>{outside}</div>'
     first = (document.get("candidates") or [{}])[0]
     words = f"<strong>{escape(first.get('model', 'no model'))}</strong><p>{escape(first.get('why', ''))}</p>"
-    return f'<div class="answer">{words}<p>From guidelines alone: no measurement was given.</p>{outside}</div>'
+    return f'<div class="answer">{words}<p>{_typed(first.get("start") or {})}</p><p>From guidelines alone: no measurement was given.</p>{outside}</div>'
+
+
+def _typed(values) -> str:
+    """Parameters as they are typed."""
+    return " ".join(f"<code>{escape(key)}={_values(value)}</code>" for key, value in values.items())
 
 
 def _figures(figures) -> str:
@@ -133,7 +139,7 @@ def _parameters(document) -> str:
 
 
 def _candidates(document) -> str:
-    lines = [([escape(each["model"]), " ".join(f"<code>{escape(key)}={_values(value)}</code>" for key, value in (each.get("start") or {}).items()),
+    lines = [([escape(each["model"]), _typed(each.get("start") or {}),
                escape("; cannot: ".join(filter(None, (each.get("why", ""), "; ".join(each.get("cannot") or ())))))], place == 0) for place, each in enumerate(document.get("candidates") or ())]  # fmt: skip
     return _table(["model", "start from", "why"], lines) if lines else ""
 

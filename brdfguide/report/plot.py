@@ -11,7 +11,7 @@ from ..measurement import Measurement
 from . import style
 
 NOMINAL_UM = 0.55  # the wavelength the report shows
-FAMILIES = ("phong", "ward", "lafortune", "he-torrance")  # the report's four, drawn beside the best
+FAMILIES = ("he-torrance", "phong", "ward", "lafortune")  # the report's four, drawn beside the best
 MOST_LINES = 5
 # (azimuth off the plane, spread of theta_i) [deg]: as narrow a slice of the data as still has points in it
 SLICES = ((0.1, 0.05), (2.0, 0.5), (5.0, 2.5), (10.0, 5.0))
@@ -28,11 +28,13 @@ class Line:
     rms_ln: float
     ns: float | None = None
     on_front: bool = False
+    recommended: bool = False
 
 
 def lines_of(ranking) -> list[Line]:
     """Every row of a Ranking, best first."""
-    return [Line(r.fit.name, r.fit.model, r.fit.values, r.rms_ln, r.ns_per_sample, r.on_front) for r in ranking.rows]
+    pick = getattr(ranking, "recommended", None)
+    return [Line(r.fit.name, r.fit.model, r.fit.values, r.rms_ln, r.ns_per_sample, r.on_front, r is pick) for r in ranking.rows]
 
 
 def fit(ranking, measurement: Measurement, path) -> None:
@@ -66,14 +68,15 @@ def cost(lines: list[Line], width_mm=180, height_mm=72):
 
 
 def chosen(lines: list[Line]) -> list[Line]:
-    """The best, and the best of each of the report's four families: more lines than that cannot be told apart."""
+    """The best, the recommended, and the best of the report's families: more lines than that cannot be told apart."""
     if len(lines) <= MOST_LINES:
         return list(lines)
-    wanted = [lines[0].name]
+    wanted = [lines[0].name] + [line.name for line in lines if line.recommended]
     for family in FAMILIES:
         words = lambda line: {word.partition(":")[0] for word in line.name.split("+")}  # noqa: E731
         wanted += [line.name for line in lines if family in words(line)][:1]
-    return [line for line in lines if line.name in wanted][:MOST_LINES]
+    wanted = list(dict.fromkeys(wanted))[:MOST_LINES]
+    return [line for line in lines if line.name in wanted]
 
 
 def nominal_channel(measurement: Measurement) -> int:
