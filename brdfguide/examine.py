@@ -27,7 +27,7 @@ def examine(measurement: Measurement) -> tuple[Finding, ...]:
         return (Finding("no-usable-values", text, "error", numbers=(("values", measurement.brdf.size),)),)
     looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
     spiky = spikes(looked_at)
-    found = [_coverage(looked_at), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
+    found = [_coverage(measurement), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
     found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_noise(looked_at)]
     return tuple(found)
 

@@ -52,7 +52,10 @@ def recognised(head: bytes, name: str) -> Format:
     claims = [each for each in every if each.name != "table" and each.recognises(head)]
     if len(claims) > 1:
         raise InputError(f"{name}: two readers claim this file: {' and '.join(each.name for each in claims)}; it follows neither format strictly")
-    return claims[0] if claims else next(each for each in every if each.name == "table")
+    table = next(each for each in every if each.name == "table")
+    if not claims and not table.recognises(head):
+        raise InputError(f"{name}: it is binary, and no reader knows it; wanted text with a header row, or a known table format")
+    return claims[0] if claims else table
 
 
 def finished(measurement: Measurement, format: Format, options: Options) -> Measurement:
