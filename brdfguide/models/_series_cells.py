@@ -6,7 +6,6 @@ imaginary parts of ln g near π. A cell is computed from the terms when first to
 cells are summed term by term.
 """
 
-from functools import partial
 from math import log
 
 import numpy as np
@@ -17,39 +16,30 @@ TAIL, NOISE = 1e-12, 4e-15  # Chebyshev coefficients below it, and below this sh
 SIZES = (12, 20)  # nodes along each side, tried in turn
 G_FIRST, OCTAVES_G, OCTAVES_Y, PARTS = -42, 70, 16, 8
 OUTSIDE = 2**16 - 1
-BLOCK = 2048  # samples at once, so that they stay in the processor's cache
-SPARSE = 24  # samples in a cell below which a loop over cells costs more than their coefficients for each sample
+BLOCK = 4096  # samples at once, so that they stay in the processor's cache
 
 
 def ln_series(g, y, derivatives: bool = False):
     """ln S to 1e-11, for g > 0 and y >= 0, which broadcast. With `derivatives`: (ln S, d ln S/d ln g, d ln S/dy), these to 1e-8."""
     g, y = np.broadcast_arrays(np.asanyarray(g, float), np.asanyarray(y, float), subok=True)
     shape, g, y = g.shape, g.ravel(), y.ravel()
-    code, t_g, t_y = _places(g, y)
+    code, t_g, t_y = np.empty(g.size, np.uint16), np.empty_like(g), np.empty_like(g)
+    for first in range(0, g.size, BLOCK):
+        part = slice(first, first + BLOCK)
+        code[part], t_g[part], t_y[part] = _places(g[part], y[part])
     order = np.argsort(code, kind="stable")
     code, t_g, t_y = code[order], t_g[order], t_y[order]
     starts = np.flatnonzero(np.diff(code, prepend=-1))
     touched = code[starts].tolist()
     _fill([each for each in touched if each not in CELLS])
-    cells = [CELLS[each] for each in touched]
+    groups = [(CELLS[each], start, stop) for each, start, stop in zip(touched, starts.tolist(), [*starts[1:].tolist(), code.size])]
     out = np.empty((3 if derivatives else 1, code.size))
-    if code.size < SPARSE * len(cells):
-        every = _stacked(cells)
-        which = np.repeat(np.arange(len(cells)), np.diff(starts, append=code.size))
-        for first in range(0, code.size, BLOCK):
-            part = slice(first, first + BLOCK)
-            stack = every[which[part]]
-            _evaluate(lambda powers: np.einsum("nij,jn->in", stack, powers), stack.shape[1:], t_g[part], t_y[part], out[:, part])  # noqa: B023
-    else:
-        for cell, start, stop in zip(cells, starts, [*starts[1:], code.size]):
-            for first in range(start, stop if cell is not None else start, BLOCK):
-                part = slice(first, min(first + BLOCK, stop))
-                _evaluate(partial(np.matmul, cell), cell.shape, t_g[part], t_y[part], out[:, part])
+    _evaluate([group for group in groups if group[0] is not None], t_g, t_y, out)
     result = np.empty_like(out)
     result[:, order] = out
     if derivatives:
         result[1:, order] = _by_chain_rule(code, *out[1:], g[order], y[order])
-    for cell, start, stop in zip(cells, starts, [*starts[1:], code.size]):
+    for cell, start, stop in groups:
         if cell is None:
             rows = order[start:stop]
             result[:, rows] = by_terms(g[rows], y[rows])[: len(result)]
@@ -125,32 +115,36 @@ def _to_powers(n):
     return polynomials.T
 
 
-def _stacked(cells):
-    """All cells in one array, padded with zeros."""
-    shapes = [cell.shape for cell in cells if cell is not None] or [(1, 1)]
-    stack = np.zeros((len(cells), *np.max(shapes, axis=0)))
-    for place, cell in enumerate(cells):
-        if cell is not None:
-            stack[place, : cell.shape[0], : cell.shape[1]] = cell
-    return stack
+def _evaluate(groups, t_g, t_y, out):
+    """The polynomials into out[0]; their derivatives by t_g and t_y into out[1] and out[2] where these exist.
 
-
-def _evaluate(times_powers, shape, t_g, t_y, out):
-    """The polynomial into out[0]; its derivatives by t_g and t_y into out[1] and out[2] where these exist."""
-    powers_g, powers_y = _powers_of(t_g, shape[0]), _powers_of(t_y, shape[1])
-    inner = times_powers(powers_y)
-    np.einsum("in,in->n", powers_g, inner, out=out[0])
-    if len(out) == 3:
-        np.einsum("in,in->n", _derived(powers_g), inner, out=out[1])
-        np.einsum("in,in->n", powers_g, times_powers(_derived(powers_y)), out=out[2])
+    Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand products.
+    """
+    for first in range(0, t_g.size, BLOCK):
+        here = [(cell, max(start, first), min(stop, first + BLOCK)) for cell, start, stop in groups if start < first + BLOCK and stop > first]
+        if not here:
+            continue
+        sizes = np.max([cell.shape for cell, *_ in here], axis=0)
+        powers_g, powers_y = (_powers_of(t[first : first + BLOCK], size) for t, size in zip((t_g, t_y), sizes))
+        if len(out) == 3:
+            derived_g, derived_y = _derived(powers_g), _derived(powers_y)
+        for cell, start, stop in here:
+            (n_g, n_y), cut, part = cell.shape, slice(start - first, stop - first), slice(start, stop)
+            inner = np.matmul(cell, powers_y[:n_y, cut])
+            np.einsum("in,in->n", powers_g[:n_g, cut], inner, out=out[0, part])
+            if len(out) == 3:
+                np.einsum("in,in->n", derived_g[:n_g, cut], inner, out=out[1, part])
+                np.einsum("in,in->n", powers_g[:n_g, cut], np.matmul(cell, derived_y[:n_y, cut]), out=out[2, part])
 
 
 def _powers_of(t, count):
     powers = np.empty_like(t, shape=(count, t.size))
     powers[0] = 1.0
-    powers[1:2] = t
-    for k in range(2, count):
-        np.multiply(powers[k - 1], t, out=powers[k])
+    done = 1
+    while done < count:  # twice as many at each step
+        more = min(done, count - done)
+        np.multiply(powers[:more], powers[done - 1] * t, out=powers[done : done + more])
+        done += more
     return powers
 
 

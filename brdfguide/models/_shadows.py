@@ -9,20 +9,75 @@ from ..geometry import Geometry
 from ..special import erfcx, lambert_w
 from ._series_cells import ln_series
 
+BLOCK = 4096
+
 
 def shadowing(cos, sin, slope):
     """S/cos θ, finite at grazing, and K = tan θ erfc(ν). Beyond ν = 26 they are 1/cos θ and 0 to every digit."""
     steep = np.maximum(2 * slope * sin, cos / 26)
     nu = cos / steep
     bell = np.exp(-nu * nu)
-    erfc = bell * erfcx(nu)
+    erfc = erfcx(nu)
+    erfc *= bell
     visible = sqrt(pi) * (2 - erfc)
-    return visible / (steep * (nu * visible + bell)), sin / cos * erfc
+    nu *= visible
+    nu += bell
+    nu *= steep
+    visible /= nu
+    erfc *= sin / cos
+    return visible, erfc
+
+
+def by_shadows(geom, slope, by_ln_g):
+    """The share of d ln f/d ln slope that comes through S and, by the effective roughness, through g."""
+    through_s, spread, by_spread = 0.0, 0.0, 0.0
+    for cos, sin in ((geom.cos_i, geom.sin_i), (geom.cos_r, geom.sin_r)):
+        nu = cos / np.maximum(2 * slope * sin, cos / 26)
+        bell = np.exp(-nu * nu)
+        erfc = bell * erfcx(nu)
+        visible = sqrt(pi) * (2 - erfc)
+        through_s = through_s - bell * (2 * nu / visible + 1 / (nu * visible + bell))
+        spread = spread + sin / cos * erfc
+        by_spread = by_spread + bell / (sqrt(pi) * slope)
+    w = lambert_w(spread * spread / (8 * pi))
+    return through_s - by_ln_g * spread * np.exp(-w) / (4 * pi * (1 + w) ** 2) * by_spread
 
 
 def shadow_free(spread):
-    """Effective over true roughness: what the shadows leave, from K at both angles."""
-    return 1 / np.sqrt(1 + lambert_w(spread * spread / (8 * pi)))
+    """Effective over true roughness: what the shadows leave, from K at both angles. K below 1e-8 leaves all of it."""
+    spread = np.asanyarray(spread)
+    if spread.ndim != 1 or not spread.size:
+        return 1 / np.sqrt(1 + lambert_w(spread * spread / (8 * pi)))
+    left = np.ones_like(spread)
+    some = np.flatnonzero(spread > 1e-8)
+    left[some] = 1 / np.sqrt(1 + lambert_w(spread[some] ** 2 / (8 * pi)))
+    return left
+
+
+def fresnel(geom, n, k):
+    """F(θd), kept with the directions until the index changes: a search for sigma and slope asks for it again and again."""
+    key = "fresnel of the last index"
+    if np.ndim(n) or np.ndim(k):
+        return optics.fresnel(geom.cos_d, n, k)
+    if geom.__dict__.get(key, (None,))[0] != (n, k):
+        geom.__dict__[key] = (n, k), optics.fresnel(geom.cos_d, n, k)
+    return geom.__dict__[key][1]
+
+
+def height_factor(geom):
+    """(|i + r|²/v_z)², what is left of G with unit vectors."""
+    return (geom.v2 / geom.v_z) ** 2
+
+
+def in_blocks(parts, geom, *values):
+    """`parts(geom, *values)`, for long arrays piece by piece, so that what it forms on the way stays in the cache."""
+    if len(geom.shape) != 1 or len(geom) <= BLOCK or any(np.ndim(value) for value in (*values, geom.wavelength)):
+        return parts(geom, *values)
+    return tuple(map(np.concatenate, zip(*(parts(piece, *values) for piece in geom.remembered(pieces)))))
+
+
+def pieces(geom):
+    return tuple(piece for _, piece in geom.blocks(BLOCK))
 
 
 def reduced(*out: str):
@@ -40,7 +95,7 @@ def reduced(*out: str):
             shadow_i, spread_i = shadowing(geom.cos_i, geom.sin_i, slope)
             shadow_r, spread_r = shadowing(geom.cos_r, geom.sin_r, slope)
             shadow, rough = shadow_i * shadow_r, shadow_free(spread_i + spread_r)
-        f = optics.f0(n, k) if "fresnel" in out else optics.fresnel(geom.cos_d, n, k)
+        f = optics.f0(n, k) if "fresnel" in out else fresnel(geom, n, k)
         g = (2 * pi * sigma / geom.wavelength * geom.v_z * rough) ** 2
         y = (pi * sigma / slope / geom.wavelength) ** 2 * geom.vxy2
         if "series" in out or "waves" in out:
@@ -48,6 +103,6 @@ def reduced(*out: str):
             series = np.exp(-x) / g if "waves" in out else np.exp(-x) * (1 + (x * x - 4 * x + 2) / (2 * g)) / g
         else:
             series = np.exp(ln_series(g, y))
-        return (pi / 4) * scale * (sigma / slope / geom.wavelength) ** 2 * f * shadow * (geom.v2 / geom.v_z) ** 2 * series
+        return (pi / 4) * scale * (sigma / slope / geom.wavelength) ** 2 * f * shadow * geom.remembered(height_factor) * series
 
     return brdf

@@ -21,19 +21,21 @@ from .. import optics
 from ..geometry import Geometry, in_plane
 from ._base import Derived, Extreme, Model, Parameter, Pin
 from ._series_cells import ln_series
-from ._shadows import reduced, shadow_free, shadowing
+from ._shadows import by_shadows, fresnel, height_factor, in_blocks, reduced, shadow_free, shadowing
 
 
 def brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
     """Lobe [1/sr], without the mirror part, in the shape of `geom` and its wavelength."""
-    factor, ln_s = _parts(geom, sigma, slope, n, k, scale)
-    return factor * np.exp(ln_s)
+    factor, g, y = in_blocks(_parts, geom, sigma, slope, n, k, scale)
+    value = np.exp(ln_series(g, y))
+    value *= factor
+    return value
 
 
 def ln_brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
     """ln of the lobe, also where the lobe itself underflows."""
-    factor, ln_s = _parts(geom, sigma, slope, n, k, scale)
-    return np.log(factor) + ln_s
+    factor, g, y = in_blocks(_parts, geom, sigma, slope, n, k, scale)
+    return np.log(factor) + ln_series(g, y)
 
 
 def mirror(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
@@ -43,14 +45,34 @@ def mirror(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
     return scale * optics.fresnel(geom.cos_i, n, k) * np.exp(-g) * (shadow * geom.cos_i) ** 2
 
 
+def gradient(geom: Geometry, names, *, sigma, slope, n, k, scale) -> dict[str, np.ndarray]:
+    """df/dsigma, df/dslope, df/dn, df/dk, as far as `names` asks for them."""
+    bare, g, y = in_blocks(_parts, geom, sigma, slope, None, None, scale)
+    ln_s, by_ln_g, by_y = ln_series(g, y, derivatives=True)
+    bare = bare * np.exp(ln_s)
+    f = bare * fresnel(geom, n, k)
+    by_tau = 2 + 2 * y * by_y  # d ln f/d ln tau
+    out = {}
+    if "sigma" in names:
+        out["sigma"] = f * (by_tau + 2 * by_ln_g) / sigma
+    if "slope" in names:
+        out["slope"] = f * (by_shadows(geom, slope, by_ln_g) - by_tau) / slope
+    if "n" in names or "k" in names:
+        out["n"], out["k"] = (bare * each for each in optics.fresnel_gradient(geom.cos_d, n, k))
+    return {name: out[name] for name in names if name in out}
+
+
 def _parts(geom, sigma, slope, n, k, scale):
+    """What multiplies the sum, and its arguments g and y = x/4. Without n, without Fresnel's factor."""
     shadow_i, spread_i = shadowing(geom.cos_i, geom.sin_i, slope)
     shadow_r, spread_r = shadowing(geom.cos_r, geom.sin_r, slope)
     tau = sigma / slope
     g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * shadow_free(spread_i + spread_r)) ** 2
     y = (pi * tau / geom.wavelength) ** 2 * geom.vxy2
-    factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * optics.fresnel(geom.cos_d, n, k)
-    return factor * shadow_i * shadow_r * (geom.v2 / geom.v_z) ** 2, ln_series(g, y)
+    shadow_i *= shadow_r
+    shadow_i *= geom.remembered(height_factor)
+    f = 1.0 if n is None else fresnel(geom, n, k)
+    return (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow_i, g, y
 
 
 CHEAPER = tuple((*some, *waves) for some in ((), ("fresnel",), ("masking",), ("fresnel", "masking")) for waves in ((), ("series",), ("waves",)))[1:]
@@ -65,6 +87,7 @@ MODEL = Model(
         Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
         Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
     ),
+    gradient=gradient,
     mirror=mirror,
     without={"+".join(out): reduced(*out) for out in CHEAPER},
     derived=(Derived("tau", lambda sigma, slope, **_: sigma / slope, "um", "correlation length"),),
