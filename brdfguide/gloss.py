@@ -81,7 +81,10 @@ def _beckmann_hidden(x):
 
 
 def closed_form(angle: int, alpha: float, n: float) -> float:
-    """Gloss units of a Gaussian lobe from a point lamp, H and V the receptor's full angles; poor at 85° and for lobes below the lamp's width.
+    """Gloss units of a Gaussian lobe from a point lamp, H and V the receptor's full angles.
+
+    Within 0.3 units at 60°, and at 20° from alpha = 0.05; narrower lobes are blurred by the lamp (5 units at 0.01), and at
+    85° facets hide each other (3 units at 0.2).
 
     G = 100 F/F_standard erf(H/(4 alpha)) erf(V/(4 alpha cos θ))
     """
