@@ -17,7 +17,7 @@ def compare(
     progress: Callable[[str], None] = lambda what: None,
 ) -> Ranking:
     """The candidates in order of error, with held-out errors. Raises NoAnswer where none converged."""
-    fits = fitting.fit_all(candidates, measurement, options, lambda name: progress(f"fitting {name}"))
+    fits = fitting.fit_all(candidates, measurement, options, progress)
     if not any(fit.converged for fit in fits):
         raise NoAnswer(f"{measurement.name}: none of {len(fits)} models converged; try --robust, or --theta-max to leave out doubtful angles")
     ranked = ranking.rank(fits, measurement, options.metric)

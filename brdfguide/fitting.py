@@ -14,8 +14,9 @@ from .models import Sum
 
 SEARCH_SAMPLES = 800  # directions on which the starts are followed
 SEARCH_CHANNELS = 4
-NEAR_SAMPLES = 3000  # directions on which all channels come close
-POLISH_SAMPLES = 24_000  # directions on which the answer is settled; a larger table is thinned, its error is not
+NEAR_SAMPLES = 2000  # directions on which all channels come close
+POLISH_SAMPLES = 8_000  # directions on which the answer is settled; a larger table is thinned, its error is not
+HOPELESS, LEAST_HOPELESS = 4.0, 0.5  # times the best error, and rms, beyond which a model is not refined
 ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
 
 
@@ -92,40 +93,60 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     )  # fmt: skip
 
 
+@dataclass(frozen=True, eq=False)
+class Search:
+    """Where the starts of one model ended, on few directions and channels."""
+
+    layout: Layout
+    ends: list  # (shared, own, rms), best first
+    evaluations: int
+    seconds: float
+
+    @property
+    def rms(self) -> float:
+        return self.ends[0][2]
+
+
 def fit(model: Sum, measurement: Measurement | Data, options: Options = Options()) -> Fit:
     """The values of `model` closest to a measurement, from the best two starts of a grid and from the user's own.
 
     Raises InputError where nothing can be fitted.
     """
-    began = perf_counter()
     data = measurement if isinstance(measurement, Data) else prepare(measurement, options)
-    scale = metric(options.metric)
-    model = _with_options(model, options)
-    layout = Layout(model, data.settle.brdf.shape[1], options.shape_per_channel)
-    found, evaluations = _search(layout, data, scale)
+    return settle(search(model, data, options), data, options)
+
+
+def settle(searched: Search, data: Data, options: Options, hopeless: bool = False) -> Fit:
+    """The fit that a search leads to; a hopeless one is left where the search ended, and says so."""
+    began = perf_counter()
+    scale, layout, found, evaluations = metric(options.metric), searched.layout, searched.ends, searched.evaluations
+    model = layout.model
     start = found[0][0], _spread_over_channels(found[0][1], layout.channels)
     weights = data.settle_weights
-    if len(data.near.brdf) < len(data.settle.brdf):
-        close = _descend(layout, data.near, scale, data.near_weights, start, 1e-5)
-        start, evaluations = (close.shared, close.own), evaluations + close.evaluations
-    for _ in range(ROBUST_ROUNDS if options.robust else 1):
+    if hopeless or len(data.near.brdf) < len(data.settle.brdf):
+        best = _descend(layout, data.near, scale, data.near_weights, start, 1e-5)
+        start, evaluations = (best.shared, best.own), evaluations + best.evaluations
+    for _ in range(0 if hopeless else ROBUST_ROUNDS if options.robust else 1):
         best = _descend(layout, data.settle, scale, weights, start, 1e-6)
-        evaluations += best.evaluations
-        start = best.shared, best.own
+        start, evaluations = (best.shared, best.own), evaluations + best.evaluations
         if options.robust:
             weights = _robust(weights, Misfit(layout, data.settle, scale, weights)(*start, False), data.settle)
+    settled = data.near if hopeless else data.settle
     values = layout.decode(*start)
     residuals = ln_residuals(model, data.whole, values)
     part = residuals[data.used]
     correlation, score = uncertainty.serial_correlation(part, data.orders)
-    stderr = uncertainty.standard_errors(layout, values, best.normal, best.cost, part, correlation)
+    variance = best.cost / max(np.count_nonzero(settled.usable) - layout.count, 1)
+    stderr = uncertainty.standard_errors(layout, values, best.normal, variance, part, correlation)
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
     warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found)) if warning]
+    if hopeless:
+        warnings.append(Finding("coarse", f"its error is more than {HOPELESS:g} times the best: searched for, not refined", "note"))
     if not best.converged:
         warnings.append(Finding("not-converged", "the search was still moving when it was stopped", "warning", "do not use the values"))
     return Fit(
         model, values, stderr, residuals, float(np.sqrt(np.nanmean(residuals**2))), layout.count,
-        evaluations, perf_counter() - began, best.converged, tuple(warnings),
+        evaluations, searched.seconds + perf_counter() - began, best.converged, tuple(warnings),
     )  # fmt: skip
 
 
@@ -139,10 +160,15 @@ def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = 
         if not any(model.has(name) for model in models):
             raise choices("parameter of any candidate", name, sorted({key for model in models for key in model.parameters}))
     data = prepare(measurement, options)
-    fits = []
+    searches = []
     for model in models:
-        progress(label(model))
-        fits.append(fit(model, data, options))
+        progress(f"searching {label(model)}")
+        searches.append(search(model, data, options))
+    limit = HOPELESS * min((each.rms for each in searches), default=0.0)
+    fits = []
+    for each in searches:
+        progress(f"fitting {label(each.layout.model)}")
+        fits.append(settle(each, data, options, hopeless=each.rms > max(limit, LEAST_HOPELESS)))
     return tuple(fits)
 
 
@@ -188,15 +214,17 @@ def _with_options(model: Sum, options: Options) -> Sum:
     return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
 
 
-def _search(layout: Layout, data: Data, scale: Metric):
-    """Follows the grid's starts on few directions and channels: ends (shared, own, rms), best first, and the evaluations spent."""
-    narrow = replace(layout, channels=data.search.brdf.shape[1])
+def search(model: Sum, data: Data, options: Options) -> Search:
+    """Follows the grid's starts on few directions and channels."""
+    began = perf_counter()
+    layout = Layout(_with_options(model, options), data.settle.brdf.shape[1], options.shape_per_channel)
+    narrow, scale = replace(layout, channels=data.search.brdf.shape[1]), metric(options.metric)
     ends, evaluations = [], 0
     for start in starts.grid_starts(narrow, data.search):
         end = _descend(narrow, data.search, scale, data.search_weights, narrow.encode(start), 1e-5)
         evaluations += end.evaluations
         ends.append((end.shared, end.own, float(np.sqrt(end.cost / max(np.count_nonzero(data.search.usable), 1)))))
-    return sorted(ends, key=lambda end: end[2]), evaluations
+    return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
 
 
 def few_channels(count: int) -> np.ndarray:

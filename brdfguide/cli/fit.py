@@ -47,7 +47,7 @@ def fit(
     options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
     candidates = recommend.candidates(kind, expressions(models))
     measurement = read_examined(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, anyway=anyway)
-    with progress(2 * len(candidates), quiet) as tell:
+    with progress(3 * len(candidates), quiet) as tell:
         ranked = compare(measurement, candidates, options, tell)
     result = document.fit_document(ranked, measurement, timing=not no_timing)
     in_scene = of_ranking(scene, ranked, measurement, result, not no_timing, quiet) if scene else ""
