@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from . import levenberg, starts, uncertainty
+from . import levenberg, sampling, starts, uncertainty
 from .errors import InputError, choices
 from .measurement import Finding, Measurement
 from .misfit import SMALLEST, Layout, Metric, Misfit, evaluate, metric
@@ -82,11 +82,11 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
         raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
     used = measurement if len(seen) == len(measurement.brdf) else measurement[seen]
     weights = sample_weights(used, options.weights)
-    rows = starts.spread_rows(used, POLISH_SAMPLES)
+    rows = sampling.representative_rows(used, POLISH_SAMPLES)
     settle = used if len(rows) == len(used.brdf) else used[rows]
     thin, channels = starts.spread_rows(settle, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
     search = settle[thin].of_channels(channels)
-    close = starts.spread_rows(settle, NEAR_SAMPLES)
+    close = sampling.representative_rows(settle, NEAR_SAMPLES)
     weights, orders = weights[rows], uncertainty.orderings(settle)
     return Data(
         measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders

@@ -24,15 +24,23 @@ def subset(measurement: Measurement, count: int = 4000, seed: int = 0) -> Measur
     size = len(measurement.geom)
     if size <= count:
         return measurement
+    picked = measurement[representative_rows(measurement, count, seed)]
+    chosen = len(picked.geom)
+    text = f"{chosen} of {size} directions used for the search, stratified over incidence, half angle and azimuth (seed {seed}); errors are over all"
+    note = Finding("subset", text, numbers=(("directions", chosen), ("of", size), ("seed", seed)))
+    return replace(picked, weights=None).noting(note)
+
+
+def representative_rows(measurement: Measurement, count: int, seed: int = 0) -> np.ndarray:
+    """The row numbers behind `subset`, ascending; all of them where there are no more than `count`."""
+    size = len(measurement.geom)
+    if size <= count:
+        return np.arange(size)
     weight = np.ones(size) if measurement.weights is None else measurement.weights[:, 0]
     order = _by_stratum(measurement.geom, weight)
     reach = np.cumsum(weight[order])
     draws = (np.arange(count) + np.random.default_rng(seed).uniform(size=count)) * (reach[-1] / count)
-    rows = np.unique(order[np.searchsorted(reach, draws, side="right").clip(max=size - 1)])
-    picked = measurement[rows]
-    text = f"{len(rows)} of {size} directions used for the search, stratified over incidence, half angle and azimuth (seed {seed}); errors are over all"
-    note = Finding("subset", text, numbers=(("directions", len(rows)), ("of", size), ("seed", seed)))
-    return replace(picked, weights=None).noting(note)
+    return np.unique(order[np.searchsorted(reach, draws, side="right").clip(max=size - 1)])
 
 
 def _by_stratum(geom, weight) -> np.ndarray:
