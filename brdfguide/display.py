@@ -45,11 +45,13 @@ class Display:
         """One just noticeable difference in ln(V + floor)."""
         return log(1 + self.weber)
 
+    def perceived(self, radiance) -> np.ndarray:
+        """Coordinates in which a just noticeable difference is a distance of 1: (..., 1) from grey, (..., 3) from RGB."""
+        return self.logarithm(radiance) if np.shape(radiance)[-1] == 1 else 720 * self.itp(radiance)
+
     def difference(self, radiance, other) -> np.ndarray:
         """JND between two pictures (samples, 1) in grey, ΔE_ITP between two in RGB (samples, 3). Gives (samples,)."""
-        if radiance.shape[-1] == 1:
-            return np.abs(self.logarithm(radiance) - self.logarithm(other))[..., 0]
-        return 720 * np.linalg.norm(self.itp(radiance) - self.itp(other), axis=-1)
+        return distance(self.perceived(radiance), self.perceived(other))
 
     def codes(self, radiance, other) -> np.ndarray:
         """Difference in code values of a display with `bits` and `gamma`; below half a code nothing can change. Gives (samples,)."""
@@ -61,6 +63,11 @@ class Display:
         """I, T, P of linear BT.709 colours (..., 3)."""
         cd_m2 = (self.shown(radiance) + self.floor) * self.peak_cd_m2
         return _perceptual_quantizer(cd_m2 @ RGB_709_TO_2020.T @ RGB_TO_LMS.T) @ LMS_TO_ITP.T
+
+
+def distance(perceived, other) -> np.ndarray:
+    """Just noticeable differences between two pictures as perceived, (samples,)."""
+    return np.abs(perceived - other)[..., 0] if perceived.shape[-1] == 1 else np.linalg.norm(perceived - other, axis=-1)
 
 
 def _perceptual_quantizer(cd_m2):

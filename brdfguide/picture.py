@@ -10,14 +10,14 @@ from functools import cached_property
 
 import numpy as np
 
-from . import levenberg
+from . import display, levenberg
 from .display import colour_weights
 from .geometry import in_plane
 from .models._base import Sum
 from .parts import MIRROR, Cut, Parts
 from .quadrature import Quadrature
 
-REFIT_PIXELS = 1000  # enough for the few amplitudes that a refit moves
+REFIT_PIXELS = 600  # enough for the few amplitudes that a refit moves
 DARK = 1e-12  # of a perfect white: below this a reference pixel says nothing
 
 
@@ -29,7 +29,7 @@ class Errors:
     p95: float
     worst: float  # of all pixels drawn
     visible: float  # of differences that fill at least one pixel of the picture
-    codes: float  # largest difference in code values of the display, over visible pixels
+    codes: float  # difference in code values of the display where the worst is visible
     at_deg: tuple[float, float, float]  # theta_i, theta_r, phi where the worst is
 
     def within(self, tolerance, factor: float = 1.0) -> bool:
@@ -47,6 +47,10 @@ class Picture:
     @cached_property
     def colours(self) -> np.ndarray:
         return colour_weights(self.parts.wavelength, self.channels, self.quadrature.scene.colour)
+
+    @property
+    def tolerance(self):
+        return self.quadrature.scene.tolerance
 
     @property
     def channels(self) -> int:
@@ -110,21 +114,21 @@ class Picture:
 
     def _least(self, scaled, fixed, highest) -> np.ndarray:
         """Factors (channels, terms) on `scaled` (pixels, channels, terms) that come nearest to the reference."""
-        display = self.quadrature.scene.display
+        screen = self.quadrature.scene.display
         some = slice(None, None, -(-len(self.quadrature) // REFIT_PIXELS))  # drawn in no order
         scaled, fixed = scaled[some], np.broadcast_to(fixed, self.reference.shape)[some]
-        root, wanted = np.sqrt(self.weights[some])[:, None], display.logarithm(self.reference[some])
+        root, wanted = np.sqrt(self.weights[some])[:, None], screen.logarithm(self.reference[some])
 
         def residuals(_, factors, slopes):
             radiance = fixed + np.einsum("sct,ct->sc", scaled, factors)
-            r = (display.logarithm(radiance) - wanted) * root
+            r = (screen.logarithm(radiance) - wanted) * root
             if not slopes:
                 return r
-            shown = display.shown(radiance)
-            rate = np.where(shown < display.white, display.exposure / ((shown + display.floor) * display.jnd), 0.0) * root
+            shown = screen.shown(radiance)
+            rate = np.where(shown < screen.white, screen.exposure / ((shown + screen.floor) * screen.jnd), 0.0) * root
             return r, np.zeros((r.shape[1], r.shape[0], 0)), np.ascontiguousarray(np.moveaxis(scaled * rate[:, :, None], 0, 1))
 
-        return levenberg.minimise(residuals, np.zeros(0), np.ones(highest.shape), own_low=0.0, own_high=np.maximum(highest, 1.0), most=30, tolerance=1e-6).own
+        return levenberg.minimise(residuals, np.zeros(0), np.ones(highest.shape), own_low=0.0, own_high=np.maximum(highest, 1.0), most=20, tolerance=1e-5).own
 
     def values(self, cut: Cut, factors: Mapping) -> dict:
         """The values of the sum that `cut` leaves, with its amplitudes multiplied."""
@@ -156,27 +160,25 @@ class Picture:
             radiance = radiance + self.quadrature.mirror_radiance(lambda geom: sum_.mirror(geom.where_lit(), values))
         return self._over_channels(radiance)
 
+    @cached_property
+    def shown_reference(self) -> np.ndarray:
+        """The reference in the coordinates that differences are taken in, colours mixed."""
+        return self.quadrature.scene.display.perceived(self.reference @ self.colours)
+
     def differences(self, radiance) -> np.ndarray:
         """JND (pixels,) from the reference, 0 where that is black."""
-        display = self.quadrature.scene.display
-        return np.where(self.weights > 0, display.difference(self.reference @ self.colours, radiance @ self.colours), 0.0)
+        perceived = self.quadrature.scene.display.perceived(radiance @ self.colours)
+        return np.where(self.weights > 0, display.distance(self.shown_reference, perceived), 0.0)
 
     def errors(self, radiance) -> Errors:
         """The difference of a radiance (pixels, channels) from the reference."""
         q, j = self.quadrature, self.differences(radiance)
         order = np.argsort(j)
         below = np.cumsum(self.weights[order])  # share of the picture that differs by no more
-        pick = lambda share: float(j[order][min(np.searchsorted(below, share - 1e-12), len(j) - 1)])  # noqa: E731
+        pick = lambda share: int(order[min(np.searchsorted(below, share - 1e-12), len(j) - 1)])  # noqa: E731
         visible = pick(1 - 1 / q.scene.pixels)
-        codes = q.scene.display.codes(self.reference @ self.colours, radiance @ self.colours)
-        return Errors(
-            mean=float(self.weights @ j),
-            p95=pick(0.95),
-            worst=float(j.max()),
-            visible=visible,
-            codes=float(codes[(j <= visible) & (self.weights > 0)].max(initial=0.0)),
-            at_deg=q.angles_deg(int(order[min(np.searchsorted(below, 1 - 1 / q.scene.pixels - 1e-12), len(j) - 1)])),
-        )
+        codes = q.scene.display.codes(self.reference[visible] @ self.colours, radiance[visible] @ self.colours)
+        return Errors(float(self.weights @ j), float(j[pick(0.95)]), float(j.max()), float(j[visible]), float(codes), q.angles_deg(visible))
 
 
 def _follows(model, values) -> bool:

@@ -8,28 +8,26 @@ What may differ is said by the scene; what was assumed where it is silent is `sc
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 
 import numpy as np
 
-from . import costs, quadrature, reach
-from .costs import NO_TIME, Saving, Time
+from . import costs, quadrature, reach, search
+from .costs import Saving, Time
 from .errors import NoAnswer
 from .geometry import Geometry
 from .measurement import Finding
 from .models._base import Sum
-from .parts import MIRROR, NOTHING, Cut, Part, Parts
+from .parts import NOTHING, Cut, Part, Parts
 from .picture import Errors, Picture, lobe_width
 from .scene import Scene
+from .search import Candidate
 
-FIRST_PIXELS, MOST_PIXELS = 1500, 12000
-MOST_WORK = 4e8  # additions to judge all ways to keep all terms once: some half second
-MOST_CUTS = 256  # tried one by one; with more, parts are left out greedily
+FIRST_PIXELS, MOST_PIXELS = 1500, 8000
+MOST_WORK = 3e8  # additions to judge all ways to keep all terms once: some half second
 RGB_UM = (0.61, 0.55, 0.46)  # dominant wavelengths of red, green and blue
 FRESH_FACTOR = 1.5  # how far the worst pixel of a picture drawn afresh may lie above the tolerance
 STRAY = (0.9, 1.1)
-NEAR_MISS = 8.0  # times the tolerance: worth refitting the shapes too
 
 
 @dataclass(frozen=True)
@@ -44,17 +42,6 @@ class Single:
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
-    """A cut with its picture's errors and its cost."""
-
-    cut: Cut
-    errors: Errors
-    work: float  # operations per direction, in additions: the same in every run, so it decides which is cheaper
-    factors: Mapping
-    time: Time = NO_TIME  # measured for those that are shown
-
-
-@dataclass(frozen=True, eq=False)
 class Pruned:
     """What is left, what that costs and what it saves."""
 
@@ -63,7 +50,8 @@ class Pruned:
     whole_values: Mapping
     sum: Sum
     values: Mapping  # of `sum`, refitted over the scene
-    cut: Cut
+    cut: Cut  # what was left out
+    stand_in: bool  # whether another law takes the place of the lobes
     errors: Errors
     fresh: Errors  # on other pixels of the same scene
     moved: tuple[Errors, ...]  # with every angle 10 % smaller, and larger
@@ -92,38 +80,42 @@ def prune(
     seed: int = 0,
     wavelength=None,
     progress: Callable[[str], None] = lambda text: None,
+    other_laws: bool = True,
 ) -> Pruned:
     """The least of `sum_` that `scene` needs.
 
     Takes  values of the sum's parameters, scalars or (channels,); wavelength [µm] (channels,), by default the data's;
-    geom_of_data, the directions that the values were fitted to, only to say where the scene goes beyond them.
+    geom_of_data, the directions that the values were fitted to, only to say where the scene goes beyond them;
+    other_laws, whether a simpler law may stand in for the lobes.
     Gives  Pruned.    Raises NoAnswer if the scene shows no lit surface.
     """
     parts = Parts(sum_, values, _wavelengths(values, wavelength, geom_of_data))
     width = lobe_width(sum_, values, parts.wavelength)
     draw = lambda scene_, size, seed_: _picture(parts, scene_, size, seed_, width)  # noqa: E731
     progress("drawing the scene")
-    picture, singles, convergence = _converged(draw, scene, seed)
+    works = search.works(draw(scene, FIRST_PIXELS, seed))
+    picture, singles, convergence = _converged(draw, scene, seed, sum(works.values()))
     progress("leaving parts out")
-    works = _works(picture)
-    candidates = _candidates(picture, works)
+    cuts = search.cuts(picture, works)
+    candidates = [*cuts.values(), *search.near_misses(picture, cuts.values())]
+    if other_laws:
+        progress("trying simpler laws")
+        candidates += search.other_laws(picture, candidates)
     progress("checking on fresh directions")
-    pick, fresh, moved, refused = _picked(picture, candidates, draw, scene, seed)
+    pick, fresh, moved, refused = _picked(picture, candidates, cuts, draw, seed)
     progress("timing what is left")
-    pruned, kept = parts.pruned(pick.cut), picture.values(pick.cut, pick.factors)
-    laws = _law(sum_, parts.values), _law(pruned, kept)
-    whole_time, time = costs.compare(*laws, _rows(picture)) if pick.cut.out else (costs.times({"": laws[0]}, _rows(picture))[""],) * 2
-    front = _front(candidates.values())
-    way_times = _way_times(picture, [NOTHING, *(NOTHING.without(part) for part in singles), *(each.cut for each in front)])
-    front = tuple(replace(each, time=_cut_time(parts, way_times, each.cut)) for each in front)
+    whole, rows = cuts[NOTHING], search.rows(picture)
+    laws = search.law(whole.sum, whole.values), search.law(pick.sum, pick.values)
+    savings, front = search.times(picture, singles, search.front(candidates))
+    whole_time, time = (costs.times({"": laws[0]}, rows)[""],) * 2 if pick.whole else costs.compare(*laws, rows)
     findings = (
-        *refused, *reach.at_bounds(pruned, kept), *reach.strays(scene, moved), *reach.beyond_data(picture.quadrature, geom_of_data),
-        *_over_budget(scene, time, front),
+        *refused, *reach.unsettled(scene, convergence, len(picture.weights)), *reach.at_bounds(pick.sum, pick.values), *reach.strays(scene, moved),
+        *reach.beyond_data(picture.quadrature, geom_of_data), *reach.over_budget(scene, time, front),
     )  # fmt: skip
     return Pruned(
-        scene, sum_, dict(values), pruned, kept, pick.cut, pick.errors, fresh, moved, whole_time, time,
-        tuple(costs.operations(law, _rows(picture)[:256]) for law in laws),
-        tuple(Single(part, errors, _saving(way_times, part), _is_out(part, pick.cut)) for part, errors in singles.items()),
+        scene, sum_, dict(values), pick.sum, pick.values, pick.cut, pick.stand_in, pick.errors, fresh, moved, whole_time, time,
+        tuple(costs.operations(each, rows[: search.COUNTED]) for each in laws),
+        tuple(Single(part, errors, savings[part], search.is_out(part, pick.cut)) for part, errors in singles.items()),
         front, picture.quadrature.box(), len(picture.quadrature), convergence, int(np.sum(picture.weights == 0)), seed, findings,
     )  # fmt: skip
 
@@ -146,7 +138,7 @@ def _picture(parts: Parts, scene: Scene, size: int, seed: int, width: float) -> 
     return picture
 
 
-def _converged(draw, scene: Scene, seed: int):
+def _converged(draw, scene: Scene, seed: int, work: float):
     """The picture with enough pixels: doubling them no longer changes what decides by a quarter of the tolerance."""
     least = 0.25 * max(min(scene.tolerance.worst, scene.tolerance.p95), 0.04)
     most = 4 * max(scene.tolerance.worst, 0.25)  # beyond, an error decides nothing by its size
@@ -156,7 +148,7 @@ def _converged(draw, scene: Scene, seed: int):
         singles = _singles(picture)
         now = np.array([min(value, most) for errors in singles.values() for value in (errors.visible, errors.p95)])
         change = np.inf if before is None else float(np.max(np.abs(now - before), initial=0.0))
-        if scene.pairs or change < least or size * 2 > MOST_PIXELS or 2 * len(_rows(picture)) * sum(_works(picture).values()) > MOST_WORK:
+        if scene.pairs or change < least or size * 2 > MOST_PIXELS or 2 * len(search.rows(picture)) * work > MOST_WORK:
             return picture, singles, 0.0 if scene.pairs else change
         size, before = size * 2, now
 
@@ -167,98 +159,22 @@ def _singles(picture: Picture) -> dict[Part, Errors]:
     return {part: picture.cut_errors(cut, picture.refitted(cut)) for part, cut in cuts.items() if picture.parts.provided(cut)}
 
 
-# --- time -------------------------------------------------------------------------------------------
-
-
-def _rows(picture: Picture) -> Geometry:
-    return picture.quadrature.lit[0]
-
-
-def _law(sum_: Sum, values: Mapping):
-    """The whole of a sum as one law of the geometry: what a renderer would call."""
-    if not sum_.has_mirror:
-        return lambda geom: sum_(geom, values)
-    return lambda geom: (sum_(geom, values), sum_.mirror(geom, values))
-
-
-def _way_law(picture: Picture, label: str, way: frozenset[str]):
-    """One term kept one way, as a law."""
-    term = next(term for term in picture.parts.sum.terms if term.label == label)
-    alone = Sum(term.model.name, (replace(term, model=picture.parts.model(term, way)),))
-    return _law(alone, {f"{label}.{name}": value for name, value in picture.parts.of(term).items()})
-
-
-def _works(picture: Picture) -> dict:
-    """Operations of every way to keep every term."""
-    ways = [(term.label, way) for term in picture.parts.sum.terms for way in picture.parts.ways(term)]
-    return {each: costs.work(costs.operations(_way_law(picture, *each), _rows(picture)[:256])) for each in ways}
-
-
-def _way_times(picture: Picture, cuts) -> dict:
-    """Time of the ways that occur in `cuts`, and of each mirror part by itself."""
-    ways = {(term.label, cut.way(term.label)) for cut in cuts for term in picture.parts.sum.terms if cut.keeps(term.label)}
-    laws = {way: _way_law(picture, *way) for way in sorted(ways, key=str)}
-    for term in picture.parts.sum.terms:
-        if term.model.mirror is not None:
-            laws[term.label, MIRROR] = partial(term.model.mirror, **picture.parts.of(term))
-    return costs.times(laws, _rows(picture))
-
-
-def _cut_time(parts: Parts, way_times: Mapping, cut: Cut) -> Time:
-    return sum((way_times[term.label, cut.way(term.label)] for term in parts.sum.terms if cut.keeps(term.label)), NO_TIME)
-
-
-def _saving(way_times: Mapping, part: Part) -> Saving:
-    """What leaving out one part alone saves: the time of its term, or a difference of two ways to keep it."""
-    if part.feature == MIRROR:
-        return way_times[part.label, MIRROR].over(NO_TIME)
-    left = way_times[part.label, frozenset({part.feature})] if part.feature else NO_TIME
-    return way_times[part.label, frozenset()].over(left)
-
-
-# --- search -----------------------------------------------------------------------------------------
-
-
-def _candidates(picture: Picture, works: Mapping) -> dict[Cut, Candidate]:
-    """All cuts judged; where there are too many, those on the way down from the whole."""
-
-    def judged(cut: Cut) -> Candidate:
-        factors = picture.refitted(cut)
-        kept = [term.label for term in picture.parts.sum.terms if cut.keeps(term.label)]
-        work = sum(works[label, cut.way(label)] for label in kept) + len(kept) - 1
-        return Candidate(cut, picture.cut_errors(cut, factors), work, factors)
-
-    every = picture.parts.cuts()
-    if len(every) <= MOST_CUTS:
-        return {cut: judged(cut) for cut in every}
-    found = {NOTHING: judged(NOTHING)}
-    here = NOTHING
-    while True:
-        ways = [here.without(part) for part in picture.parts.all() if not _is_out(part, here)]
-        swaps = [way.restoring(part) for way in ways for part in here.out]
-        tried = [found.setdefault(cut, judged(cut)) for cut in {*ways, *swaps} - found.keys() if picture.parts.provided(cut)]
-        good = [each for each in tried if each.errors.within(picture.quadrature.scene.tolerance) and each.work < found[here].work]
-        if not good:
-            return found
-        here = min(good, key=lambda each: each.work).cut
-
-
-def _picked(picture: Picture, candidates: Mapping, draw, scene: Scene, seed: int):
+def _picked(picture: Picture, candidates, cuts: Mapping, draw, seed: int):
     """The cheapest candidate within the tolerance that stands the checks, its errors there, and what was refused on the way."""
-    within = sorted((each for each in candidates.values() if each.errors.within(scene.tolerance)), key=lambda each: each.work)
+    scene = picture.quadrature.scene
     checks, seen = None, set()
     refused: tuple[Finding, ...] = ()
-    for each in within:
-        each = _worth_it(picture, each, candidates)
-        if not each.cut.out:
+    for each in sorted((each for each in candidates if each.errors.within(scene.tolerance)), key=lambda each: each.work):
+        each = _worth_it(picture, each, cuts)
+        if each.whole:
             break
-        if each.cut in seen:
+        if id(each) in seen:
             continue
-        seen.add(each.cut)
+        seen.add(id(each))
         if checks is None:
             size = len(picture.weights)
             checks = [draw(scene, size, seed + 1), *(draw(scene.scaled(factor), size, seed) for factor in STRAY)]
-        fresh, *moved = (check.cut_errors(each.cut, each.factors) for check in checks)
+        fresh, *moved = (check.errors(check.radiance(each.sum, each.values)) for check in checks)
         if not fresh.within(scene.tolerance, FRESH_FACTOR):
             why = f"{fresh.visible:.2g} JND at worst on fresh directions"
         elif scene.camera_moves and not all(errors.within(scene.tolerance) for errors in moved):
@@ -266,43 +182,18 @@ def _picked(picture: Picture, candidates: Mapping, draw, scene: Scene, seed: int
         else:
             return each, fresh, tuple(moved), refused
         if len(refused) < 3:
-            refused += (Finding("pruned-refused", f"without {each.cut} would do on the drawn directions, but not when checked: {why}"),)
-    whole = candidates[NOTHING]
+            refused += (Finding("pruned-refused", f"{each} would do on the drawn directions, but not when checked: {why}"),)
+    whole = cuts[NOTHING]
     return whole, whole.errors, (whole.errors,) * len(STRAY), refused
 
 
-def _worth_it(picture: Picture, pick: Candidate, candidates: Mapping) -> Candidate:
+def _worth_it(picture: Picture, pick: Candidate, cuts: Mapping) -> Candidate:
     """The pick with every part back whose absence saves no time that can be measured."""
-    for part in sorted(pick.cut.out, reverse=True):
-        fuller = candidates.get(pick.cut.restoring(part))
-        if fuller is None or not fuller.errors.within(picture.quadrature.scene.tolerance):
+    fuller = [cuts.get(pick.cut.restoring(part)) for part in sorted(pick.cut.out, reverse=True)] if not pick.stand_in else [cuts[NOTHING]]
+    for each in fuller:
+        if each is None or not each.errors.within(picture.tolerance):
             continue
-        laws = (_law(picture.parts.pruned(each.cut), picture.values(each.cut, each.factors)) for each in (fuller, pick))
-        longer, shorter = costs.compare(*laws, _rows(picture))
+        longer, shorter = costs.compare(search.law(each.sum, each.values), search.law(pick.sum, pick.values), search.rows(picture))
         if not longer.over(shorter).measurable:
-            return _worth_it(picture, fuller, candidates)
+            return _worth_it(picture, each, cuts)
     return pick
-
-
-def _is_out(part: Part, cut: Cut) -> bool:
-    return part in cut.out or not cut.keeps(part.label)
-
-
-def _front(candidates) -> tuple[Candidate, ...]:
-    """Those that no other beats in both cost and worst visible error, cheapest first."""
-    front: list[Candidate] = []
-    for each in sorted(candidates, key=lambda each: (each.work, each.errors.visible)):
-        if not front or each.errors.visible < 0.9 * front[-1].errors.visible - 1e-9 or (not each.cut.out and front[-1].cut.out):
-            front.append(each)
-        if not each.cut.out or each.errors.visible < 1e-9:
-            break
-    return tuple(front)
-
-
-def _over_budget(scene: Scene, time: Time, front) -> tuple[Finding, ...]:
-    """What the budget would buy, where the pick costs more."""
-    if scene.budget_ns is None or time.ns <= scene.budget_ns:
-        return ()
-    cheap = min((each for each in front if each.time.ns <= scene.budget_ns), key=lambda each: each.errors.visible, default=None)
-    says = f"without {cheap.cut} it would, and differ by {cheap.errors.visible:.2g} JND at worst" if cheap else "no part of the model does"
-    return (Finding("over-budget", f"{time.ns:.0f} ns per evaluation do not fit the budget of {scene.budget_ns:g}; {says}", "warning"),)

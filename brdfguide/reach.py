@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from .costs import Time
 from .geometry import Geometry
 from .measurement import Finding
 from .models._base import Sum
@@ -31,6 +32,14 @@ def strays(scene: Scene, moved) -> tuple[Finding, ...]:
     return (Finding("scene-may-stray", text, "warning", "keep to the box of angles", "camera_moves: true in the scene", (("worst_jnd", worst),)),)
 
 
+def unsettled(scene: Scene, convergence: float, pixels: int) -> tuple[Finding, ...]:
+    """A note where more pixels would still change the numbers that decide."""
+    if convergence <= 0.5 * max(scene.tolerance.worst, scene.tolerance.p95):
+        return ()
+    text = f"with {pixels} pixels the errors near the tolerance are known to about {convergence:.2g} JND"
+    return (Finding("scene-not-converged", text, consequence="the check on fresh directions is what to go by", numbers=(("change_jnd", convergence),)),)
+
+
 def beyond_data(quadrature: Quadrature, data: Geometry | None) -> tuple[Finding, ...]:
     """A warning where the scene looks at angles that the values were not fitted to; there the whole model is a guess too."""
     if data is None:
@@ -56,3 +65,12 @@ def beyond_data(quadrature: Quadrature, data: Geometry | None) -> tuple[Finding,
     part = float(share[outside].sum() / share.sum())
     text = f"{part:.0%} of the picture lies beyond the measured directions: {'; '.join(found)}"
     return (Finding("scene-beyond-data", text, "warning", "there the whole model, not only what is left of it, is an extrapolation", "", (("share", part),)),)
+
+
+def over_budget(scene: Scene, time: Time, front) -> tuple[Finding, ...]:
+    """What the scene's budget would buy, where the pick costs more."""
+    if scene.budget_ns is None or time.ns <= scene.budget_ns:
+        return ()
+    cheap = min((each for each in front if each.time.ns <= scene.budget_ns), key=lambda each: each.errors.visible, default=None)
+    says = f"{cheap} it would, and differ by {cheap.errors.visible:.2g} JND at worst" if cheap else "no part of the model does"
+    return (Finding("over-budget", f"{time.ns:.0f} ns per evaluation do not fit the budget of {scene.budget_ns:g}; {says}", "warning"),)

@@ -63,6 +63,8 @@ FLOORS = tuple(
         saved
         scene
         screens
+        search
+        stand_ins
         starting
         starts
         uncertainty

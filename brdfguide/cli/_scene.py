@@ -7,7 +7,7 @@ from typer import Option
 from ._options import progress
 
 SceneOption = Annotated[str | None, Option("--scene", help="A scene's YAML, or `default`: leave out what it does not need.")]
-STEPS = 4
+STEPS = 5
 
 
 def prune(scene: str, model, values, *, data=None, wavelength=None, quiet: bool = False):

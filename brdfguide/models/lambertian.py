@@ -18,7 +18,7 @@ from ._base import Extreme, Model, Parameter, Pin
 
 def brdf(geom: Geometry, *, albedo) -> np.ndarray:
     """Constant [1/sr], in the shape of `geom`."""
-    return np.ones(geom.shape) * (albedo / pi)
+    return np.ones_like(geom.cos_i) * (albedo / pi)
 
 
 MODEL = Model(

@@ -4,7 +4,8 @@ from math import degrees
 
 from ..parts import Cut
 from ..picture import Errors
-from ..pruning import Candidate, Pruned, Single
+from ..pruning import Pruned, Single
+from ..search import Candidate
 from .document import finding
 from .plain import plain
 from .ranking import notes_text, wrapped
@@ -23,6 +24,7 @@ def document(found: Pruned, timing: bool = True) -> dict:
         "model": found.whole.name,
         "pruned": found.sum.name,
         "without": parts_of(found.cut),
+        "other_law": found.stand_in,
         "parameters": {key: _outside(found.sum.parameters[key], value) for key, value in found.values.items()},
         "error": errors(found.errors),
         "error_fresh": errors(found.fresh),
@@ -48,7 +50,7 @@ def left_out(found: Pruned, timing: bool = True) -> list[dict]:
     """The parts left out, as the `left_out` list of a fit's document."""
     return plain([
         {"term": str(each.part), "error": errors(each.errors), "saving_ns": each.saving.ns if timing and each.saving.measurable else None,
-         "why": f"changes {found.scene.name} by {each.errors.visible:.2g} {_unit(found)} at worst"}
+         "why": f"replaced by {found.sum.terms[-1].label}" if found.stand_in and not each.part.feature else f"changes {found.scene.name} by {each.errors.visible:.2g} {_unit(found)} at worst"}
         for each in found.singles if each.left_out
     ])  # fmt: skip
 
@@ -70,18 +72,18 @@ def _single(each: Single, timing: bool) -> dict:
 
 
 def _candidate(each: Candidate, found: Pruned, timing: bool) -> dict:
-    entry = {"model": found.whole.name, "without": parts_of(each.cut), "worst": each.errors.visible, "p95": each.errors.p95, "operations": each.work, "picked": each.cut == found.cut}
+    entry = {"model": each.sum.name, "without": parts_of(each.cut), "other_law": each.stand_in, "worst": each.errors.visible, "p95": each.errors.p95, "operations": each.work, "picked": each.values is found.values}
     return entry | ({"time_per_sample_ns": each.time.ns} if timing else {})
 
 
 def _next(found: Pruned, step: int) -> dict | None:
     """The neighbour of the pick on the Pareto list, by cost."""
-    work = next((each.work for each in found.pareto if each.cut == found.cut), None)
+    work = next((each.work for each in found.pareto if each.values is found.values), None)
     if work is None:
         return None
     others = [each for each in found.pareto if (each.work - work) * step > 0]
     pick = min(others, key=lambda each: abs(each.work - work), default=None)
-    return {"without": parts_of(pick.cut), "worst": pick.errors.visible, "operations": pick.work} if pick else None
+    return {"model": pick.sum.name, "without": parts_of(pick.cut), "worst": pick.errors.visible, "operations": pick.work} if pick else None
 
 
 def _outside(parameter, value):
@@ -111,7 +113,8 @@ def _verdict(block: dict) -> str:
     lines = [wrapped(f"scene: {block['assumptions']}").lstrip()]
     if not out:
         return "\n".join([*lines, f"keep all of {block['model']}: nothing that can be left out within the tolerance saves measurable time"])
-    lines.append(wrapped(f"leave out {', '.join(out)} of {block['model']}").lstrip())
+    does = f"use {block['pruned']} in place of {block['model']}, without {', '.join(out)}" if block["other_law"] else f"leave out {', '.join(out)} of {block['model']}"
+    lines.append(wrapped(does).lstrip())
     lines.append(f"  differs by {error['mean']:.2g} {unit} on average, {error['p95']:.2g} at most for 95 % of the picture, {error['worst_visible']:.2g} at worst")
     lines.append(f"  ({_where(error)}); {fresh['worst_visible']:.2g} at worst on fresh directions")
     time = block.get("time_per_sample_ns")
@@ -136,13 +139,19 @@ def _parts_table(block: dict) -> str:
 
 def _pareto_table(block: dict) -> str:
     timed = "time_per_sample_ns" in block
-    header = ("worst", "p95", "operations", *(("ns",) if timed else ()), "without")
+    header = ("worst", "p95", "operations", *(("ns",) if timed else ()), "what")
     lines = [
         [f"{each['worst']:.2f}", f"{each['p95']:.2f}", f"{each['operations']:.0f}", *([f"{each['time_per_sample_ns']:.0f}"] if timed else []),
-         (", ".join(each["without"]) or "nothing") + ("  <- picked" if each["picked"] else "")]
+         _label(each) + ("  <- picked" if each["picked"] else "")]
         for each in block["pareto"]
     ]  # fmt: skip
     return "cheapest for each error:\n" + columns(header, lines, right=(0, 1, 2, 3) if timed else (0, 1, 2))
+
+
+def _label(each: dict) -> str:
+    if each["other_law"]:
+        return f"{each['model']} instead, without {', '.join(each['without'])}"
+    return "without " + (", ".join(each["without"]) or "nothing")
 
 
 def _reach(block: dict) -> str:

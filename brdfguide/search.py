@@ -1,0 +1,160 @@
+"""Everything that a scene might get by with: cuts of the model, and cheaper laws in place of its lobes.
+
+Operations decide which of two is cheaper, since they are the same in every run; times are measured for what is shown.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial, reduce
+
+from . import costs, stand_ins
+from .costs import NO_TIME, Saving, Time
+from .geometry import Geometry
+from .models._base import Sum
+from .parts import MIRROR, NOTHING, Cut, Part, Parts
+from .picture import Errors, Picture
+
+MOST_CUTS = 256  # tried one by one; with more, parts are left out greedily
+COUNTED = 128  # directions to count operations on
+NEAR_MISS = 6.0  # times the tolerance: worth refitting the shapes too
+MOST_NEAR_MISSES = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """What might do, with the picture's errors and its cost."""
+
+    cut: Cut
+    sum: Sum
+    values: Mapping
+    errors: Errors
+    work: float  # operations per direction, in additions
+    time: Time = NO_TIME
+    stand_in: bool = False  # another law takes the place of the lobes, which the cut leaves out
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is left out."""
+        return self.cut == NOTHING
+
+    def __str__(self) -> str:
+        return f"{self.sum.name} instead" if self.stand_in else f"without {self.cut}"
+
+
+def law(sum_: Sum, values: Mapping):
+    """The whole of a sum as one law of the geometry: what a renderer would call."""
+    if not sum_.has_mirror:
+        return lambda geom: sum_(geom, values)
+    return lambda geom: (sum_(geom, values), sum_.mirror(geom, values))
+
+
+def rows(picture: Picture) -> Geometry:
+    """The directions on which costs are taken."""
+    return picture.quadrature.lit[0]
+
+
+def is_out(part: Part, cut: Cut) -> bool:
+    return part in cut.out or not cut.keeps(part.label)
+
+
+# --- candidates -------------------------------------------------------------------------------------
+
+
+def cuts(picture: Picture, works: Mapping) -> dict[Cut, Candidate]:
+    """All cuts judged; where there are too many, those on the way down from the whole."""
+
+    def judged(cut: Cut) -> Candidate:
+        factors = picture.refitted(cut)
+        kept = [term.label for term in picture.parts.sum.terms if cut.keeps(term.label)]
+        work = sum(works[label, cut.way(label)] for label in kept) + len(kept) - 1
+        return Candidate(cut, picture.parts.pruned(cut), picture.values(cut, factors), picture.cut_errors(cut, factors), work)
+
+    every = picture.parts.cuts()
+    if len(every) <= MOST_CUTS:
+        return {cut: judged(cut) for cut in every}
+    here, found = NOTHING, {NOTHING: judged(NOTHING)}
+    while True:
+        fewer = [here.without(part) for part in picture.parts.all() if not is_out(part, here)]
+        swapped = [cut.restoring(part) for cut in fewer for part in here.out]
+        tried = {cut: judged(cut) for cut in {*fewer, *swapped} - found.keys() if picture.parts.provided(cut)}
+        found |= tried
+        good = [each for each in tried.values() if each.errors.within(picture.tolerance) and each.work < found[here].work]
+        if not good:
+            return found
+        here = min(good, key=lambda each: each.work).cut
+
+
+def near_misses(picture: Picture, candidates) -> list[Candidate]:
+    """Cuts cheaper than the cheapest that will do and nearly as good, their shapes refitted as well."""
+    enough = cheapest(picture, candidates)
+    near = [each for each in candidates if each.work < enough.work and each.errors.within(picture.tolerance, NEAR_MISS)]
+    best = sorted(near, key=lambda each: each.errors.visible)[:MOST_NEAR_MISSES]
+    return [judged(picture, each.cut, each.sum, stand_ins.reshaped(picture, each.sum, each.values), each.work) for each in best]
+
+
+def other_laws(picture: Picture, candidates) -> list[Candidate]:
+    """Simple lobes in place of those of the cheapest cut that will do, where they would be cheaper still."""
+    enough = cheapest(picture, candidates)
+    lobes = [Part(term.label) for term in picture.parts.sum.terms if term.model.roles != ("subsurface",)]
+    cut, found = reduce(Cut.without, lobes, enough.cut), []
+    for sum_, start in stand_ins.of(enough.sum, enough.values, picture.quadrature.width, picture.parts.wavelength):
+        work = costs.work(costs.operations(law(sum_, start), rows(picture)[:COUNTED]))
+        if work < 0.9 * enough.work:
+            found.append(replace(judged(picture, cut, sum_, stand_ins.reshaped(picture, sum_, start), work), stand_in=True))
+    return found
+
+
+def judged(picture: Picture, cut: Cut, sum_: Sum, values: Mapping, work: float) -> Candidate:
+    """A candidate evaluated as a whole."""
+    return Candidate(cut, sum_, values, picture.errors(picture.radiance(sum_, values)), work)
+
+
+def cheapest(picture: Picture, candidates) -> Candidate:
+    """The cheapest candidate within the tolerance."""
+    return min((each for each in candidates if each.errors.within(picture.tolerance)), key=lambda each: each.work)
+
+
+def front(candidates) -> tuple[Candidate, ...]:
+    """Those that no other beats in both cost and worst visible error, cheapest first."""
+    found: list[Candidate] = []
+    for each in sorted(candidates, key=lambda each: (each.work, each.errors.visible)):
+        if not found or each.errors.visible < 0.9 * found[-1].errors.visible - 1e-9 or each.whole:
+            found.append(each)
+        if each.whole or each.errors.visible < 1e-9:
+            break
+    return tuple(found)
+
+
+# --- cost -------------------------------------------------------------------------------------------
+
+
+def works(picture: Picture) -> dict:
+    """Operations of every way to keep every term."""
+    ways = [(term.label, way) for term in picture.parts.sum.terms for way in picture.parts.ways(term)]
+    return {each: costs.work(costs.operations(_way_law(picture.parts, *each), rows(picture)[:COUNTED])) for each in ways}
+
+
+def times(picture: Picture, singles, shown) -> tuple[dict[Part, Saving], tuple[Candidate, ...]]:
+    """What each part in `singles` saves when left out alone, and the candidates in `shown` with their times."""
+    parts = picture.parts
+    laws: dict = {index: law(each.sum, each.values) for index, each in enumerate(shown)}
+    for part in singles:
+        laws[part.label, frozenset()] = _way_law(parts, part.label, frozenset())
+        if part.feature == MIRROR:
+            term = next(term for term in parts.sum.terms if term.label == part.label)
+            laws[part] = partial(term.model.mirror, **parts.of(term))
+        elif part.feature:
+            laws[part] = _way_law(parts, part.label, frozenset({part.feature}))
+    measured = costs.times(laws, rows(picture))
+    savings = {}
+    for part in singles:
+        whole = measured[part.label, frozenset()]
+        savings[part] = measured[part].over(NO_TIME) if part.feature == MIRROR else whole.over(measured[part] if part.feature else NO_TIME)
+    return savings, tuple(replace(each, time=measured[index]) for index, each in enumerate(shown))
+
+
+def _way_law(parts: Parts, label: str, way: frozenset[str]):
+    """One term kept one way, as a law."""
+    term = next(term for term in parts.sum.terms if term.label == label)
+    alone = Sum(term.model.name, (replace(term, model=parts.model(term, way)),))
+    return law(alone, {f"{label}.{name}": value for name, value in parts.of(term).items()})
