@@ -119,6 +119,7 @@ def _evaluate(groups, t_g, t_y, out):
     """The polynomials into out[0]; their derivatives by t_g and t_y into out[1] and out[2] where these exist.
 
     Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand products.
+    `einsum` and not a matrix product, whose last digits depend on how many samples stand side by side.
     """
     for first in range(0, t_g.size, BLOCK):
         here = [(cell, max(start, first), min(stop, first + BLOCK)) for cell, start, stop in groups if start < first + BLOCK and stop > first]
@@ -130,15 +131,15 @@ def _evaluate(groups, t_g, t_y, out):
             derived_g, derived_y = _derived(powers_g), _derived(powers_y)
         for cell, start, stop in here:
             (n_g, n_y), cut, part = cell.shape, slice(start - first, stop - first), slice(start, stop)
-            inner = np.matmul(cell, powers_y[:n_y, cut])
+            inner = np.einsum("ij,jn->in", cell, powers_y[:n_y, cut])
             np.einsum("in,in->n", powers_g[:n_g, cut], inner, out=out[0, part])
             if len(out) == 3:
                 np.einsum("in,in->n", derived_g[:n_g, cut], inner, out=out[1, part])
-                np.einsum("in,in->n", powers_g[:n_g, cut], np.matmul(cell, derived_y[:n_y, cut]), out=out[2, part])
+                np.einsum("in,in->n", powers_g[:n_g, cut], np.einsum("ij,jn->in", cell, derived_y[:n_y, cut]), out=out[2, part])
 
 
 def _powers_of(t, count):
-    powers = np.empty_like(t, shape=(count, t.size))
+    powers = np.empty_like(t, shape=(count, t.size + 1))[:, :-1]  # never one column alone: it would be summed in another order
     powers[0] = 1.0
     done = 1
     while done < count:  # twice as many at each step
@@ -149,7 +150,7 @@ def _powers_of(t, count):
 
 
 def _derived(powers):
-    derived = np.zeros_like(powers)
+    derived = np.zeros_like(powers, shape=(len(powers), powers.shape[1] + 1))[:, :-1]
     np.multiply(powers[:-1], np.arange(1.0, len(powers))[:, None], out=derived[1:])
     return derived
 
