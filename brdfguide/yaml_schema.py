@@ -83,8 +83,8 @@ def parse(text: str, fields: tuple[Field, ...], rules: Iterable[Callable] = (), 
     values = walk.group(root, fields, "")
     document = Document(name, values, walk.places)
     problems = list(walk.problems)
-    for rule in rules:
-        problems += [(document.place(where), sentence) for where, sentence in rule(document)]
+    for rule in rules:  # what follows from an error that is already named is left unsaid
+        problems += [(document.place(where), sentence) for where, sentence in rule(document) if where not in walk.broken]
     if problems:
         lines = [f"{name}:{line}:{column}: {sentence}" for (line, column), sentence in sorted(problems, key=lambda each: each[0])]
         raise InputError("\n".join(dict.fromkeys(lines)))
@@ -136,7 +136,7 @@ class _Walk:
     """Goes through the nodes beside the fields, keeping values' places and what is wrong."""
 
     def __init__(self):
-        self.places, self.problems = {}, []
+        self.places, self.problems, self.broken = {}, [], set()
 
     def wrong(self, node, sentence: str) -> None:
         self.problems.append(((node.start_mark.line + 1, node.start_mark.column + 1), sentence))
@@ -147,7 +147,7 @@ class _Walk:
         if not isinstance(node, yaml.MappingNode):
             self.wrong(node, f"{what} is {_shown(node)}; wanted lines of `key: value` with {', '.join(f.name for f in fields)}")
             return {}
-        known, values, first = {f.name: f for f in fields}, {}, {}
+        known, values, first, sound = {f.name: f for f in fields}, {}, {}, len(self.problems)
         for key_node, value_node in node.value:
             key = _key(key_node)
             if key in first:
@@ -160,12 +160,17 @@ class _Walk:
                 continue
             inner = f"{path}.{key}" if path else key
             self.places[inner] = value_node.start_mark.line + 1, value_node.start_mark.column + 1
+            count = len(self.problems)
             value = self.value(value_node, known[key], inner)
+            if len(self.problems) > count:
+                self.broken.add(inner)
             if value is not None:
                 values[key] = value
         for each in fields:
             if each.required and each.name not in first:
                 self.wrong(node, f"{what} needs '{each.name}': {each.meaning}")
+        if len(self.problems) > sound:
+            self.broken.add(path)
         return values
 
     def value(self, node, wanted: Field, path: str):
