@@ -120,6 +120,8 @@ class Material:
     def filled(self, values: Mapping, rule: str) -> "Material":
         """With the blanks among `values` filled; what was observed or filled before stays."""
         new = {name: value for name, value in values.items() if getattr(self, name) is None}
+        if not new:
+            return self
         return replace(self, **new, filled_by={**self.filled_by, **dict.fromkeys(new, rule)})
 
     @property

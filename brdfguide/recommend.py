@@ -182,8 +182,7 @@ def predicted_gloss(model: Sum, values: Mapping) -> dict[int, float]:
     single = {key: value[len(value) // 2] if isinstance(value, tuple) else value for key, value in values.items()}
     out = {}
     for angle in gloss.ANGLES:
-        at = Geometry.from_degrees(angle, 0.0, angle, 180.0)
-        mirror = float(np.squeeze(model.mirror(at, single))) if model.has_mirror else 0.0
+        mirror = float(np.squeeze(model.mirror(Geometry.from_degrees(angle, 0.0, angle, 180.0), single))) if model.has_mirror else 0.0
         out[angle] = float(gloss.units(lambda geom: model(geom, single), angle, mirror, quick=True)[0])
     return out
 

@@ -157,10 +157,15 @@ def _within(parameter, given):
 def rise(model: Sum, values: Mapping) -> Rise:
     """The growth of these values from 10 to 75 degrees, in the middle channel."""
     single = {key: value[len(value) // 2] if isinstance(value, tuple) else value for key, value in values.items()}
-    reflected = np.arange(0.0, 90.0)  # one value a degree
-    scans = [model(rows(in_plane(angle, reflected)), single)[:, 0] for angle in (10.0, 75.0)]
+    scans = [model(_scan(angle), single)[:, 0] for angle in (10.0, 75.0)]
     at = [float(scan[angle]) for scan, angle in zip(scans, (10, 75))]
     top = [float(scan.max()) for scan in scans]
-    spike = [float(np.squeeze(model.mirror(in_plane(angle, angle), single))) for angle in (10.0, 75.0)] if model.has_mirror else [0.0, 0.0]
+    spike = [float(model.mirror(_scan(angle), single)[0, 0]) for angle in (10.0, 75.0)] if model.has_mirror else [0.0, 0.0]
     ratio = lambda pair: pair[1] / pair[0] if pair[0] > 1e-12 else None  # noqa: E731
     return Rise(ratio(at), ratio(top), ratio(spike))
+
+
+@lru_cache(maxsize=2)
+def _scan(theta_i: float):
+    """The mirror side of the plane of incidence, one value a degree."""
+    return rows(in_plane(theta_i, np.arange(0.0, 90.0)))
