@@ -1,9 +1,9 @@
 """Descriptions: twenty ways to be wrong, each a clear sentence with its place; and the catalogue that comes along."""
 
 import json
+import resource
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -134,14 +134,14 @@ def test_removing_an_observation_changes_the_answer_or_it_was_called_unused(name
 
 
 def test_all_of_them_in_one_process_in_less_than_3_seconds():
-    began = time.perf_counter()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     run = subprocess.run([sys.executable, "-m", "brdfguide", "recommend", *NAMES, "--json"], cwd=ROOT, capture_output=True, text=True)
-    seconds = time.perf_counter() - began
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     document = json.loads(run.stdout)
     assert run.returncode == 0, run.stderr
     assert len(document["recommendations"]) == len(NAMES)
     assert all(each["candidates"] and each["recommended"] for each in document["recommendations"])
-    assert seconds < 12  # 3 s when the machine is free; this one is shared
+    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < 3  # of the processor, whoever else uses it
 
 
 def test_a_consultation_is_the_same_twice():
