@@ -5,6 +5,7 @@ and in coordinates in which a fit walks well: the logarithm for widths, the valu
 """
 
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,6 +17,7 @@ from .measurement import Measurement
 from .models import Sum
 from .models._base import Parameter
 
+LARGE, THREADS = 32_768, 2  # directions beyond which blocks and threads pay
 SMALLEST = 1e-300  # where a law underflows its logarithm is taken here: far off, but finite
 
 
@@ -162,14 +164,19 @@ class Misfit:
 
 
 def evaluate(model: Sum, geom: Geometry, values: Mapping) -> np.ndarray:
-    """The sum at every direction (samples, channels), in blocks that fit the cache."""
+    """The sum at every direction (samples, channels), in blocks that fit the cache; two threads for a large table."""
     channels = max((np.size(value) for value in values.values()), default=1)
     channels = max(channels, np.size(geom.wavelength))
-    if len(geom) <= 32768:
+    if len(geom) <= LARGE:
         return np.broadcast_to(model(geom, values), (len(geom), channels))
     out = np.empty((len(geom), channels))
-    for rows, block in geom.blocks():
-        out[rows] = model(block, values)
+
+    def fill(block) -> None:
+        rows, part = block
+        out[rows] = model(part, values)
+
+    with ThreadPoolExecutor(THREADS) as pool:
+        list(pool.map(fill, geom.blocks()))
     return out
 
 

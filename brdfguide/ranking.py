@@ -6,12 +6,13 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from . import uncertainty
+from . import sampling, uncertainty
 from .fitting import Fit
 from .measurement import Finding, Measurement
 from .misfit import METRICS, evaluate
 
 REPEATS, TIMED_SAMPLES = 7, 4096
+COMPARED_SAMPLES = 40_000  # of a larger table, for all but the rms over everything
 DISTRUSTED = ("not-converged", "imitates")  # doubts with which no model is recommended
 REAL = 2.0  # standard errors from which a difference counts
 SEGMENTS = 8  # of each incidence angle: neighbours in one segment err together
@@ -55,21 +56,24 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     The difference from the best is taken pointwise, and its standard error over segments of neighbouring
     directions. Two models whose predictions differ by less than the noise of a single value also tie.
     """
-    errors = [all_errors(fit, measurement) for fit in fits]
+    part = sampling.representative_rows(measurement, COMPARED_SAMPLES)
+    compared = measurement if len(part) == len(measurement.brdf) else measurement[part]
+    residuals = [fit.residuals[part] for fit in fits]
+    errors = [{**all_errors(each, compared), "ln": fit.rms_ln} for each, fit in zip(residuals, fits)]
     order = sorted(range(len(fits)), key=lambda place: (not np.isfinite(errors[place][metric]), errors[place][metric]))
-    best = fits[order[0]]
-    noise = noise_of(best.residuals, measurement)
-    segments = segments_of(measurement)
-    times = time_all([fit for fit in fits], measurement)
+    best = residuals[order[0]]
+    noise = noise_of(best, compared)
+    segments, bins = segments_of(compared), incidence_bins(measurement)
+    times = time_all(fits, measurement)
     rows = []
     for place, index in enumerate(order):
         fit = fits[index]
-        behind, error = difference(fit.residuals, best.residuals, segments)
-        apart = float(np.sqrt(np.nanmean((fit.residuals - best.residuals) ** 2)))
-        tied = fit is best or apart < noise or behind < REAL * error
+        behind, error = difference(residuals[index], best, segments)
+        apart = float(np.sqrt(np.nanmean((residuals[index] - best) ** 2)))
+        tied = index == order[0] or apart < noise or behind < REAL * error
         front = not any(_dominates(errors[other], times[other], errors[index], times[index], metric) for other in order)
         rows.append(Row(
-            fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, measurement), errors[index],
+            fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, *bins), errors[index],
             behind, error, times[index], front, warnings=fit.warnings,
         ))  # fmt: skip
     rows = _with_ranks(rows)
@@ -78,9 +82,8 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     return Ranking(tuple(rows), recommended, because, metric, noise, winners, _overall(rows, winners, noise))
 
 
-def all_errors(fit: Fit, measurement: Measurement) -> dict[str, float]:
+def all_errors(residuals, measurement: Measurement) -> dict[str, float]:
     """The rms error on every scale, relative to the data's own rms on it where the scale is not logarithmic."""
-    residuals = fit.residuals
     data = np.where(np.isfinite(residuals), measurement.brdf, np.nan)
     ratio = np.exp(np.minimum(residuals, 300.0))
     cosine = measurement.geom.cos_i * measurement.geom.cos_r
@@ -93,18 +96,21 @@ def all_errors(fit: Fit, measurement: Measurement) -> dict[str, float]:
     }
 
 
-def by_theta_i(residuals, measurement: Measurement) -> dict[float, float]:
-    """rms ln at each incidence angle [deg]; in bins of 10° where there are more than twenty."""
-    angles = measurement.geom.theta_i_deg[:, 0]
-    keys = np.round(angles, 1)
-    if len(np.unique(keys)) > 20:
-        keys = np.round(angles / 10) * 10
-    out = {}
-    for key in np.unique(keys):
-        part = residuals[keys == key]
-        if np.any(np.isfinite(part)):
-            out[float(key)] = float(np.sqrt(np.nanmean(part**2)))
-    return out
+def incidence_bins(measurement: Measurement) -> tuple[np.ndarray, np.ndarray]:
+    """Incidence angles [deg], in bins of 10° where there are more than twenty, and the bin of each row."""
+    angles = np.round(measurement.geom.theta_i_deg[:, 0], 1)
+    values, places = np.unique(angles, return_inverse=True)
+    if len(values) > 20:
+        values, places = np.unique(np.round(angles / 10) * 10, return_inverse=True)
+    return values, places
+
+
+def by_theta_i(residuals, angles, places) -> dict[float, float]:
+    """rms ln at each of `incidence_bins`."""
+    seen = np.isfinite(residuals)
+    squares = np.bincount(places, np.sum(np.where(seen, residuals, 0.0) ** 2, axis=1), minlength=len(angles))
+    counts = np.bincount(places, seen.sum(axis=1), minlength=len(angles))
+    return {float(angle): float(np.sqrt(square / count)) for angle, square, count in zip(angles, squares, counts) if count}
 
 
 def segments_of(measurement: Measurement) -> np.ndarray:
@@ -115,7 +121,7 @@ def segments_of(measurement: Measurement) -> np.ndarray:
     sizes = np.diff(np.append(starts, len(order)))
     if len(starts) > 64:  # scattered incidence: the order alone decides
         starts, sizes = np.array([0]), np.array([len(order)])
-    each = SEGMENTS if len(starts) > 1 else 4 * SEGMENTS
+    each = SEGMENTS if len(starts) > 1 else int(np.clip(len(order) // 50, 4 * SEGMENTS, 256))
     segments = np.empty(len(order), int)
     for group, (start, size) in enumerate(zip(starts, sizes)):
         segments[order[start : start + size]] = group * each + np.arange(size) * each // size
