@@ -23,6 +23,40 @@ def read_surface(words: list[str], model: str | None, channel: str | None, name:
     return exporters.surface_of(_typed(model, given), name, command, channel)
 
 
+def named_surface(words: str):
+    """The exporters.Surface of one shell word: FIT.json, FIT.json#MODEL, a material, or a model with NAME=VALUE parameters."""
+    from .. import catalog, exporters, shelf
+
+    first, *given = words.split() or [""]
+    file, _, row = first.partition("#")
+    if Path(file).suffix.lower() == ".json":
+        found = _saved(file, row or None)
+        return exporters.surface_of(found, row or found.model.name)
+    term = first.split("+")[0].partition(":")[0].replace("_", "-")
+    described = Path(first).suffix.lower() in (".yaml", ".yml") or (first in shelf.names() and term not in catalog.names("models"))
+    if described:
+        return exporters.surface_of(_recommended(first), Path(first).stem)
+    return exporters.surface_of(_typed(first, given), first)
+
+
+def _recommended(name: str):
+    """The first candidate for a material, at its start values. Raises NoAnswer outside the domain."""
+    import numpy as np
+
+    from .. import material, recommend, shelf
+    from ..errors import NoAnswer
+    from ..saved import Saved
+
+    answer = recommend.recommend(material.read_material(name if Path(name).suffix else shelf.path(name)))
+    if not answer.candidates:
+        raise NoAnswer(f"{name}: no candidate; `brdfguide recommend {name}` says why")
+    best = answer.candidates[0]
+    values = {key: np.array(value) if isinstance(value, tuple) else value for key, value in best.start.items()}
+    colours = max((np.size(value) for value in values.values()), default=1)
+    channels, um = (("R", "G", "B"), [0.61, 0.55, 0.46]) if colours == 3 else (("550 nm",), [0.55])
+    return Saved(best.model, {**best.model.defaults(), **values}, channels, np.array(um), {})
+
+
 def _saved(path: str, model: str | None):
     from .. import saved
 
