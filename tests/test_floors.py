@@ -48,6 +48,7 @@ FLOORS = tuple(
         compare
         costs
         examine
+        tabulated
         fitting
         levenberg
         misfit

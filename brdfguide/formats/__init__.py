@@ -34,14 +34,34 @@ def read(path, *, wavelength=None, in_plane: bool = False, theta_max: float | No
     Raises InputError with what was found and what was wanted.
     """
     options = _checked(Options(**options))
+    format, source = opened(path)
+    measurement = format.read(source, options)
+    del source
+    return selected(finished(measurement, format, options), wavelength=wavelength, in_plane=in_plane, theta_max=theta_max)
+
+
+def opened(path) -> tuple[Format, Source]:
+    """The format that claims a file, and its content. Raises InputError where there is none or the file cannot be read."""
     name = "standard input" if str(path) == "-" else str(path)
     with _open.stream(path, name) as stream:
         head = stream.read(HEAD)
         format = recognised(head, name)
-        data = _open.whole(stream, head, format.limit, name)
-    measurement = format.read(Source(name, data), options)
-    del data
-    return selected(finished(measurement, format, options), wavelength=wavelength, in_plane=in_plane, theta_max=theta_max)
+        return format, Source(name, _open.whole(stream, head, format.limit, name, swells=format.whole_table))
+
+
+def function(path, **options):
+    """The BRDF that a dense table is, as a function of geometry (samples, 1), and the names of its channels.
+
+    Raises InputError for scattered samples: between them there is nothing but a fit.
+    """
+    format, source = opened(path)
+    if format.function is None:
+        known = ", ".join(each.name for each in members() if each.function)
+        raise InputError(
+            f"{source.name}: scattered samples ({format.name}) have no values between them; fit them and convert the fit, "
+            f"or start from a dense table ({known})"
+        )
+    return format.function(source, _checked(Options(**options)))
 
 
 def recognised(head: bytes, name: str) -> Format:

@@ -12,7 +12,8 @@ from ..measurement import Finding, Measurement
 
 RGB_UM = {"R": 0.610, "G": 0.550, "B": 0.465}  # nominal wavelengths of sRGB primaries, for laws that need one
 XYZ_UM = {"X": 0.600, "Y": 0.555, "Z": 0.446}  # peaks of the CIE 1931 colour matching functions
-TEXT_LIMIT = 128 * 2**20  # bytes of text; a gonioreflectometer fills a hundredth of it
+TEXT_LIMIT = 160 * 2**20  # bytes of text: a whole MERL table as CSV; a gonioreflectometer fills a hundredth of it
+MOST_DEG = 1e5  # no azimuth turns more often
 MARGIN_DEG = 0.005  # how far beyond the horizon a rounded angle may lie
 
 
@@ -57,7 +58,8 @@ class Source:
 
     def error(self, sentence: str, line: int | None = None) -> InputError:
         where = f"{self.name}, line {line}" if line else self.name
-        return InputError(f"{where}: {sentence}")
+        printable = "".join(letter if letter.isprintable() else "?" for letter in sentence)
+        return InputError(f"{where}: {printable}")
 
     def numbers(self, cells, line: int) -> list[float]:
         """The cells of one line as numbers. Raises InputError that names the first which is not one."""
@@ -80,6 +82,8 @@ class Format:
     read: Callable[[Source, Options], Measurement]
     limit: int = TEXT_LIMIT  # bytes beyond which such a file is not believed
     whole_table: bool = False  # a dense table with marks of its own for missing cells
+    # of a dense table: the function (geometry) -> BRDF (samples, channels), NaN where it has none, and the channels' names
+    function: Callable[[Source, Options], tuple[Callable[[Geometry], np.ndarray], tuple[str, ...]]] | None = None
     own_side: bool = True  # the format itself says on which side the mirror direction lies
 
 
@@ -91,6 +95,9 @@ def measurement(
     Directions below the horizon are dropped with a note. Raises InputError where an angle is impossible or nothing is left.
     """
     theta_i, phi_i, theta_r, phi_r = (np.asarray(a, float) for a in np.broadcast_arrays(theta_i, phi_i, theta_r, phi_r))
+    for name, degrees in (("theta_i", theta_i), ("phi_i", phi_i), ("theta_r", theta_r), ("phi_r", phi_r)):
+        if not np.all(np.abs(degrees) < MOST_DEG):
+            raise source.error(f"{name} = {degrees[~(np.abs(degrees) < MOST_DEG)][0]:g} degrees is no angle")
     phi_i = np.where(theta_i < 0, phi_i + 180.0, phi_i)
     phi_r = np.where(theta_r < 0, phi_r + 180.0, phi_r)
     theta_i, theta_r = np.abs(theta_i), np.abs(theta_r)

@@ -33,7 +33,8 @@ def measured(source: Source, table: Sheet, options: Options, *, kind: str = "tab
         notes.append(Finding("columns-ignored", f"columns ignored: {listed}", option="--columns"))
     angles, brdf, stderr, channels, um = _channels(source, table, columns, roles, constants, values, angles, notes)
     result = measurement(source, kind, *angles, brdf, channels=channels, wavelength=um, stderr=stderr, findings=notes)
-    return _stated(on_its_side(result, "phi_r" in roles or "dphi" in roles, options), values, table, options)
+    stated = any(re.match(r"mirror-side\s*:\s*phi=180", comment) for comment in table.comments)
+    return _stated(on_its_side(result, "phi_r" in roles or "dphi" in roles, options, stated), values, table, options)
 
 
 # --- which column is what ---------------------------------------------------------------------------------

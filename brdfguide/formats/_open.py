@@ -7,7 +7,8 @@ from pathlib import Path
 from ..errors import InputError
 
 MAGIC = {b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"BZh": "bzip2"}
-PIECE = 2**20
+PIECE, PACKED_PIECE = 2**20, 2**16
+HONEST_SWELLING = 200  # numbers as text shrink to a third or a tenth
 
 
 @contextmanager
@@ -28,13 +29,18 @@ def stream(path, name: str):
         raise InputError(f"{name}: cannot be read: {error.strerror or error}") from None
 
 
-def whole(stream, head: bytes, limit: int, name: str) -> bytearray:
-    """`head` and the rest of the stream. Raises InputError when it goes on beyond `limit` bytes."""
+def whole(stream, head: bytes, limit: int, name: str, swells: bool = False) -> bytearray:
+    """`head` and the rest of the stream. Raises InputError when it goes on beyond `limit` bytes.
+
+    Where no table of a known size is unpacked, it may not swell more than 200 times: `swells` says that it may.
+    """
     content = bytearray(head)
     while piece := stream.read(PIECE):
         content += piece
         if len(content) > limit:
             raise InputError(f"{name}: goes on beyond {limit / 1e6:.0f} MB, more than such a file can honestly hold")
+        if stream.kind and not swells and len(content) > PIECE + HONEST_SWELLING * stream.consumed:
+            raise InputError(f"{name}: unpacks to more than {HONEST_SWELLING} times its size, which no measurement does")
     return content
 
 
@@ -47,6 +53,7 @@ class _Unpacked:
         self.kind = next((kind for magic, kind in MAGIC.items() if self.pending.startswith(magic)), None)
         self.machine = _machine(self.kind)
         self.done = False
+        self.consumed = len(self.pending)
 
     def read(self, size: int) -> bytes:
         got = bytearray()
@@ -85,7 +92,10 @@ class _Unpacked:
         elif not self.machine.needs_input:
             return b""
         fresh, self.pending = self.pending, b""
-        return fresh or self.raw.read(PIECE)
+        if not fresh:
+            fresh = self.raw.read(PACKED_PIECE)
+            self.consumed += len(fresh)
+        return fresh
 
     def _decompress(self, fresh: bytes, size: int) -> bytes:
         return self.machine.decompress(fresh, size)

@@ -7,11 +7,13 @@ from ..measurement import Finding, Measurement
 from ._base import Options
 
 
-def on_its_side(result: Measurement, azimuths: bool, options: Options) -> Measurement:
+def on_its_side(result: Measurement, azimuths: bool, options: Options, stated: bool = False) -> Measurement:
     """Turns the directions by 180 degrees where the values say so; notes what was decided, and from what."""
     if options.mirror_side:
         text = f"mirror side {options.mirror_side}, as --mirror-side says"
         return result.noting(Finding("mirror-side-by-option", text))
+    if stated:
+        return result.noting(Finding("mirror-side", "mirror direction at phi_r - phi_i = 180, as the header states", option="--mirror-side phi=0"))
     side = conventions.side_of(result.geom, result.brdf)
     numbers = (("ln_ahead_over_behind", side.contrast), ("largest", side.largest), ("growth", side.growth))
     turn = side.verdict == "turned" and (side.certain or not azimuths)

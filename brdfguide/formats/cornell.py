@@ -21,7 +21,7 @@ def recognises(head: bytes) -> bool:
         return False
     cut = len(head) == 65536
     words = re.sub(rb"#[^\r\n]*", b"", head).decode("latin-1").split()[: -1 if cut else None]
-    if len(words) < 2 or not words[0].isdigit() or int(words[0]) not in CHANNELS:
+    if len(words) < 2 or not re.fullmatch(r"[0-9]{1,4}", words[0]) or int(words[0]) not in CHANNELS:
         return False
     start = words[1 : 1 + min(int(words[0]), 8)]
     if not all(NUMBER.fullmatch(word) for word in start):

@@ -25,11 +25,7 @@ def recognises(head: bytes) -> bool:
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError where the file is not exactly as long as its header says, or holds no value."""
-    phis = int(np.frombuffer(source.data[:12], "<i4")[2])
-    wanted = 12 + 3 * 8 * THETA_H * THETA_D * phis
-    if len(source.data) != wanted:
-        raise source.error(f"found {len(source.data)} bytes, wanted {wanted} for a table of {THETA_H} x {THETA_D} x {phis} cells in three colours")
-    planes = np.frombuffer(source.data, "<f8", offset=12).reshape(3, -1)
+    planes, phis = _planes(source)
     valid, below, invalid = _valid(planes, phis)
     count = int(np.count_nonzero(valid))
     if not count:
@@ -55,6 +51,59 @@ def read(source: Source, options: Options) -> Measurement:
         notes.append(Finding("invalid-cells", f"{invalid} cells above the horizon are marked as invalid and were dropped", numbers=(("cells", invalid),)))
     notes.append(nominal_colours("RGB"))
     return Measurement(geom, brdf, ("R", "G", "B"), name=source.name, format="MERL .binary", findings=tuple(notes))
+
+
+def function(source: Source, options: Options):
+    """The value of the cell in which a direction lies, NaN where it holds none."""
+    planes, phis = _planes(source)
+
+    def value(geom: Geometry) -> np.ndarray:
+        cells = planes[:, _index(geom, phis)].T
+        return np.where(cells >= 0, cells * SCALE, np.nan)
+
+    return value, ("R", "G", "B")
+
+
+def written(brdf) -> bytes:
+    """A table of the function `brdf` (geometry) -> (samples, 3) [1/sr], taken at the centres of the cells; -1 where it has no value."""
+    planes = np.full((3, THETA_H * THETA_D * PHI_D), -1.0)
+    for theta_h in range(THETA_H):
+        fields = _directions(theta_h, PHI_D)
+        lit = (fields["cos_i"] > 0) & (fields["cos_r"] > 0)
+        geom = Geometry(phi_i_deg=np.zeros((np.count_nonzero(lit), 1)), **{name: values[lit, None] for name, values in fields.items()})
+        values = _unscaled(np.broadcast_to(brdf(geom), (len(geom), 3)))
+        cells = theta_h * THETA_D * PHI_D + np.flatnonzero(lit)
+        planes[:, cells] = np.where(np.isfinite(values) & (values >= 0), values, -1.0).T
+    return np.array([THETA_H, THETA_D, PHI_D], "<i4").tobytes() + planes.astype("<f8").tobytes()
+
+
+def _unscaled(values):
+    """What a table must hold so that reading it gives these values to the last bit, where a double can."""
+    held = values / SCALE
+    for other in (np.nextafter(held, np.inf), np.nextafter(held, 0.0)):
+        held = np.where((held * SCALE != values) & (other * SCALE == values), other, held)
+    return held
+
+
+def _planes(source: Source):
+    """The three planes (3, cells), and how many phi_d they have. Raises InputError for a file of another length."""
+    phis = int(np.frombuffer(source.data[:12], "<i4")[2])
+    wanted = 12 + 3 * 8 * THETA_H * THETA_D * phis
+    if len(source.data) != wanted:
+        raise source.error(f"found {len(source.data)} bytes, wanted {wanted} for a table of {THETA_H} x {THETA_D} x {phis} cells in three colours")
+    return np.frombuffer(source.data, "<f8", offset=12).reshape(3, -1), phis
+
+
+def _index(geom: Geometry, phis: int) -> np.ndarray:
+    """The cell of each direction (samples, 1)."""
+    theta_h = np.arctan(np.sqrt(geom.tan2_h))[:, 0]
+    theta_d = np.arccos(np.minimum(geom.cos_d, 1.0))[:, 0]
+    along = np.divide(-geom.cos_difference[:, 0], 2 * np.sin(theta_h), out=np.zeros_like(theta_h), where=theta_h > 0)
+    across = np.sqrt(np.maximum(np.sin(theta_d) ** 2 - along**2, 0.0)) * np.where(np.sin(np.radians(geom.phi_deg[:, 0])) > 0, -1.0, 1.0)
+    phi_d = np.remainder(np.arctan2(across, along), np.pi if phis == PHI_D else 2 * np.pi)
+    place = lambda x, count: np.clip(np.floor(x + 1e-9).astype(int), 0, count - 1)  # noqa: E731
+    row = THETA_D * place(np.sqrt(np.degrees(theta_h) * THETA_H), THETA_H) + place(np.degrees(theta_d), THETA_D)
+    return phis * row + place(np.degrees(phi_d), phis)
 
 
 def _valid(planes, phis: int):
@@ -86,4 +135,4 @@ def _directions(theta_h: int, phis: int) -> dict[str, np.ndarray]:
     return {name: values.reshape(-1) for name, values in fields.items()}
 
 
-FORMAT = Format("merl", (".binary",), recognises, read, limit=LIMIT, whole_table=True)
+FORMAT = Format("merl", (".binary",), recognises, read, limit=LIMIT, whole_table=True, function=function)

@@ -39,20 +39,31 @@ def read(source: Source, options: Options) -> Measurement:
     theta_i = np.degrees(fields["theta_i"].astype(float))
     theta_i = theta_i[theta_i <= STEEPEST_DEG]
     geom = _directions(theta_i)
-    turns, shares = _turns(phi_i) if anisotropic else ([0.0], [1.0])
-    brdf = sum(share * evaluate(fields, geom, turn) for turn, share in zip(turns, shares))
+    brdf = _averaged(fields, geom, phi_i if anisotropic else None)
     channels, um, notes = _channels(fields)
     text = f"a table: {len(geom)} directions chosen at its {len(theta_i)} stored incidences, even in the root of the half angle, to {STEEPEST_DEG:g} degrees"
     found = [Finding("table", text, consequence="dense near the mirror direction", numbers=(("directions", len(geom)),))]
     if anisotropic:
-        found.append(Finding("averaged-over-rotation", f"mean over {len(turns)} rotations of an anisotropic sample", "warning", option="--average-phi-i"))
+        found.append(Finding("averaged-over-rotation", f"mean over {len(phi_i)} rotations of an anisotropic sample", "warning", option="--average-phi-i"))
     return Measurement(geom.at(um), brdf, channels, name=source.name, format="RGL .bsdf", findings=(*found, *notes))
 
 
-def _turns(phi_i):
-    """Azimuths of the light and their shares in the mean over a turn (trapezoid between the stored ones)."""
+def function(source: Source, options: Options):
+    """The table at any direction; anisotropic ones averaged over the rotation where the options ask for it."""
+    fields = _checked(source, _tensor.fields(source))
+    phi_i = np.degrees(fields["phi_i"].astype(float))
+    if len(phi_i) > 2 and not options.average_phi_i:
+        raise source.error(f"anisotropic: {len(phi_i)} azimuths of the light were measured; --average-phi-i takes their mean")
+    return lambda geom: _averaged(fields, geom, phi_i if len(phi_i) > 2 else None), _channels(fields)[0]
+
+
+def _averaged(fields, geom: Geometry, phi_i) -> np.ndarray:
+    """The BRDF, or its mean over a turn of the sample (trapezoid between the stored azimuths)."""
+    if phi_i is None:
+        return evaluate(fields, geom)
     steps = np.diff(phi_i)
-    return phi_i, (np.r_[steps, 0.0] + np.r_[0.0, steps]) / (2 * steps.sum())
+    shares = (np.r_[steps, 0.0] + np.r_[0.0, steps]) / (2 * steps.sum())
+    return sum(share * evaluate(fields, geom, turn) for turn, share in zip(phi_i, shares))
 
 
 def evaluate(fields, geom: Geometry, phi_i_deg: float = 0.0) -> np.ndarray:
@@ -187,4 +198,4 @@ def _checked(source: Source, fields):
     return fields
 
 
-FORMAT = Format("rgl", (".bsdf",), recognises, read, limit=LIMIT)
+FORMAT = Format("rgl", (".bsdf",), recognises, read, limit=LIMIT, function=function)

@@ -5,6 +5,8 @@ azimuth columns the scan lies in the plane of incidence and theta_r carries a si
 What a name does not say is inferred from the values, and noted.
 """
 
+import numpy as np
+
 from ..measurement import Measurement
 from . import _meaning
 from ._base import Format, Options, Source
@@ -20,6 +22,40 @@ def read(source: Source, options: Options) -> Measurement:
     """Raises InputError naming line and column, what was found and what was wanted."""
     headerless = options.columns if isinstance(options.columns, tuple) else None
     return _meaning.measured(source, sheet(source, headerless), options)
+
+
+def written(measurement: Measurement):
+    """The measurement as lines of our own CSV; reading them gives back the same values, to the last bit."""
+    geom, channels = measurement.geom, list(measurement.channels)
+    yield "# brdfguide table 1"
+    yield f"# source: {_line(measurement.name)} ({measurement.format})"
+    yield "# quantity: brdf"
+    yield "# mirror-side: phi=180"
+    yield "# angles: degrees, both directions point away from the surface; values in 1/sr"
+    nm = np.broadcast_to(np.asarray(geom.wavelength, float) * 1000, len(channels))
+    if channels == ["brdf"]:
+        yield f"# wavelength_nm: {nm[0]:.9g}"
+    elif not set(channels) <= {"R", "G", "B", "X", "Y", "Z"}:
+        channels = [f"{each:.9g}nm" for each in nm]
+    for finding in measurement.findings:
+        yield f"# note {finding.code}: {_line(finding.text)}"
+    columns = [geom.theta_i_deg, _turn(geom.phi_i_deg), geom.theta_r_deg, _turn(geom.phi_i_deg + geom.phi_deg), measurement.brdf]
+    names = ["theta_i_deg", "phi_i_deg", "theta_r_deg", "phi_r_deg", *channels]
+    if measurement.stderr is not None:
+        columns.append(measurement.stderr)
+        names += [f"stderr_{name}" for name in channels]
+    yield ",".join(names)
+    for row in np.concatenate([np.broadcast_to(column, (len(geom), column.shape[1])) for column in columns], axis=1):
+        yield ",".join("" if cell != cell else repr(cell) for cell in row.tolist())
+
+
+def _turn(degrees):
+    """An azimuth within 0..360, free of what rounding left."""
+    return np.remainder(np.round(np.remainder(degrees, 360.0), 9), 360.0)
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())
 
 
 FORMAT = Format("table", (".csv", ".txt", ".dat", ".tsv"), recognises, read, own_side=False)
