@@ -4,20 +4,22 @@ Only the command that was asked for is imported, so that each loads what it uses
 """
 
 import os
+import signal
 import sys
 
 from .. import catalog
 from ..errors import BrdfguideError
-
-GROUPS = {"answers": "Answers", "physics": "Physics", "data": "Data", "quality": "Quality"}
 
 
 def build(wanted: list[str]):
     """The Typer app with the commands in `wanted`; each file has a function of its own name."""
     import typer
 
+    from ._help import Command, Group
+
     app = typer.Typer(
         name="brdfguide",
+        cls=Group,
         help="Choose a reflectance model for a surface, and its parameters.",
         no_args_is_help=True,
         rich_markup_mode=None,
@@ -35,7 +37,7 @@ def build(wanted: list[str]):
     for name in wanted:
         module = catalog.load("cli", name)
         command = getattr(module, name.replace("-", "_"))
-        app.command(name, epilog=getattr(module, "EXAMPLES", None))(command)
+        app.command(name, cls=Command, epilog=getattr(module, "EXAMPLES", None))(command)
     return app
 
 
@@ -44,17 +46,16 @@ def main(argv: list[str] | None = None) -> None:
     argv = sys.argv[1:] if argv is None else argv
     known = catalog.names("cli")
     asked = next((word for word in argv if not word.startswith("-")), None)
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(130))  # before Typer turns it into a 1
     app = build([asked] if asked in known and "--show-completion" not in argv else known)
     try:
-        app(argv, standalone_mode=True)
+        app(argv, prog_name="brdfguide")
         status = 0
     except BrdfguideError as error:
         if "--debug" in argv:
             raise
         print(f"brdfguide: {error}", file=sys.stderr)
         status = error.exit_status
-    except KeyboardInterrupt:
-        status = 130
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = 0

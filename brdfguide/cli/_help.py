@@ -1,0 +1,60 @@
+"""Help that fits a screen: commands by purpose, options by group, two real examples at the end."""
+
+import inspect
+
+from typer.core import TyperCommand, TyperGroup
+
+GROUPS = {
+    "Answers": ("recommend", "fit", "roughness"),
+    "Look at it": ("inspect", "preview", "figures", "evaluate"),
+    "Small sums": ("index", "albedo", "gloss"),
+    "Carry it on": ("export", "convert"),
+    "Catalogues": ("models", "materials"),
+    "Trust": ("check", "bench"),
+}
+
+
+class Group(TyperGroup):
+    """The commands, each with the first sentence of its docstring, whole."""
+
+    def format_commands(self, ctx, formatter) -> None:
+        lines = {name: first_sentence(self.get_command(ctx, name).help) for name in self.list_commands(ctx)}
+        for title, names in GROUPS.items():
+            rows = [(name, lines.pop(name)) for name in names if name in lines]
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
+        if lines:
+            with formatter.section("More"):
+                formatter.write_dl(sorted(lines.items()))
+
+
+class Command(TyperCommand):
+    """Options under the heading that each names, arguments first."""
+
+    def format_options(self, ctx, formatter) -> None:
+        sections: dict[str, list] = {}
+        for parameter in self.get_params(ctx):
+            row = parameter.get_help_record(ctx)
+            if row is not None:
+                title = "Arguments" if parameter.param_type_name == "argument" else getattr(parameter, "rich_help_panel", None) or "Options"
+                sections.setdefault(title, []).append(row)
+        for title in sorted(sections, key=lambda title: (title != "Arguments", title == "Options")):
+            with formatter.section(title):
+                formatter.write_dl(sections[title])
+
+    def format_epilog(self, ctx, formatter) -> None:
+        if self.epilog:
+            with formatter.section("Examples"):
+                for line in self.epilog.removeprefix("Examples:").split(" | "):
+                    formatter.write(f"  {line.strip()}\n")
+
+
+def first_sentence(text: str | None) -> str:
+    """Up to the first full stop that ends a line or stands before a capital; `Eq. 3` does not end a sentence."""
+    line = inspect.cleandoc(text or "").partition("\n\n")[0].replace("\n", " ")
+    head, stop, rest = line.partition(". ")
+    while stop and not rest[:1].isupper():
+        more, stop, rest = rest.partition(". ")
+        head = f"{head}. {more}"
+    return head.removesuffix(".")
