@@ -73,6 +73,7 @@ FLOORS = tuple(
         verdict
         """,
         """
+        batch
         bench
         check
         exporters

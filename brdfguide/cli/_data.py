@@ -26,13 +26,18 @@ def read_examined(data, *options, anyway: bool = False):
     return examine.prepared(read(data, *options), anyway=anyway)
 
 
-def read(data, columns=None, unit=None, quantity=None, mirror_side=None, wavelength=None, in_plane=False, theta_max=None, average_phi_i=False):
+def read(data, *options, **more):
     """The measurement as these options say."""
     from .. import formats
 
-    options = {"columns": columns, "unit": unit, "quantity": quantity, "mirror_side": mirror_side, "average_phi_i": average_phi_i}
-    given = {name: value for name, value in options.items() if value is not None}
-    return formats.read(data, wavelength=wavelengths(wavelength), in_plane=in_plane, theta_max=theta_max, **given)
+    return formats.read(data, **dict(reading_options(*options, **more)))
+
+
+def reading_options(columns=None, unit=None, quantity=None, mirror_side=None, wavelength=None, in_plane=False, theta_max=None, average_phi_i=None):
+    """The options as keyword arguments of `formats.read`, (name, value) pairs."""
+    given = {"columns": columns, "unit": unit, "quantity": quantity, "mirror_side": mirror_side, "average_phi_i": average_phi_i}
+    selection = {"wavelength": wavelengths(wavelength), "in_plane": in_plane, "theta_max": theta_max}
+    return tuple((name, value) for name, value in {**given, **selection}.items() if value is not None)
 
 
 def wavelengths(text: str | None):

@@ -5,16 +5,18 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined
+from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
 from ._options import JsonOption, NoTimingOption, QuietOption, command_line, print_json, progress, write_whole
 from ._scene import SceneOption, of_ranking
 
-EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit data.csv -m lambertian+ggx --json > fit.json"
+EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit *.csv --jobs 2 --out fits"
+
+MANY = "Several files"
 
 
 def fit(
-    data: Annotated[Path, Argument(help="Measured data, any format that `inspect` reads; - for standard input.")],
+    data: Annotated[list[Path], Argument(help="Measured data, any format that `inspect` reads; - for standard input. Several: a row each.")],
     models: ModelsOption = None,
     kind: KindOption = None,
     metric: MetricOption = "ln",
@@ -35,6 +37,8 @@ def fit(
     plot: Annotated[Path | None, Option("--plot", help="Draw data and models (png, svg or pdf).")] = None,
     report: Annotated[Path | None, Option("--report", help="Write one page with everything (html).")] = None,
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
+    jobs: Annotated[int, Option("--jobs", help="Processes for several files.", rich_help_panel=MANY)] = 1,
+    out: Annotated[Path | None, Option("--out", help="Folder for an answer per file; run again to resume.", rich_help_panel=MANY)] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
     no_timing: NoTimingOption = False,
@@ -45,8 +49,15 @@ def fit(
     from ..report import document, ranking
 
     options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
-    candidates = recommend.candidates(kind, expressions(models))
-    measurement = read_examined(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, anyway=anyway)
+    names = expressions(models)
+    candidates = recommend.candidates(kind, names)
+    reading = (columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max)
+    if len(data) > 1 or out:
+        from ..batch import Job
+        from ._batch import fit_many
+
+        fit_many(data, Job(options, kind, names, reading_options(*reading), anyway), out, jobs, json, quiet)
+    measurement = read_examined(data[0], *reading, anyway=anyway)
     with progress(3 * len(candidates), quiet) as tell:
         ranked = compare(measurement, candidates, options, tell)
     result = document.fit_document(ranked, measurement, timing=not no_timing)
@@ -60,5 +71,5 @@ def fit(
         if plot:
             drawing.fit(ranked, measurement, plot)
         if report:
-            page.write(result, report, drawing.page_figures(ranked, measurement), command_line(), [data])
+            page.write(result, report, drawing.page_figures(ranked, measurement), command_line(), data)
     print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet) + in_scene)
