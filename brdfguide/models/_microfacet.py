@@ -38,4 +38,8 @@ def with_fixed_fresnel(shape):
 
 def beckmann(geom: Geometry, alpha) -> np.ndarray:
     """D of Gaussian slopes [1/sr], exp(-t/alpha²) ((1 + t)/alpha)²/π with t = tan²δ; its projection integrates to 1."""
-    return np.exp(geom.tan2_h / -(alpha * alpha)) * (geom.sec2_h / alpha) ** 2 / pi
+    density = geom.sec2_h / alpha
+    density *= density
+    density *= np.exp(geom.tan2_h * (-1 / (alpha * alpha)))
+    density *= 1 / pi
+    return density
