@@ -20,6 +20,8 @@ MAY_NOT_LOAD = {
     "index gold": ("scipy", "yaml", "matplotlib"),
     "gloss --at-60 80": ("scipy", "yaml", "matplotlib"),
     "recommend porcelain": ("scipy", "matplotlib", "rich"),
+    "check lambertian": ("scipy", "yaml", "matplotlib"),
+    "bench -m lambertian": ("scipy", "yaml", "matplotlib"),
 }
 RUN = """
 import sys

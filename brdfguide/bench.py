@@ -1,0 +1,94 @@
+"""What the laws cost on this machine, and error against run time where there are data to be wrong about."""
+
+import os
+import platform
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import costs
+from .geometry import Geometry, rows
+
+SIZES = (1, 1_000, 1_000_000)
+REPEATS = 7
+SHORTEST = 2e-3  # s: fewer samples are evaluated again until a turn lasts as long
+BLOCK = 16384  # rows whose arrays stay in the processor's cache
+SEED = 9
+
+
+@dataclass(frozen=True)
+class Row:
+    """Time per sample of one law at one number of samples [ns], over interleaved repeats."""
+
+    name: str
+    n: int
+    least: float
+    median: float
+
+
+def times(laws: Mapping[str, Callable], sizes=SIZES, repeats: int = REPEATS, tell: Callable[[str], None] = lambda what: None) -> list[Row]:
+    """Every law at every size, taking turns. Takes laws(geom) -> array.
+
+    Thread processor time, one thread, double precision. The directions are kept from turn to turn, as in a fit, where
+    only parameters change: what a law forms from directions alone is paid for once and not counted.
+    """
+    found = []
+    for n in sizes:
+        tell(f"{n} samples")
+        blocks = [block for _, block in directions(n).blocks(BLOCK)]
+        turns = {name: _turns(law, blocks) for name, law in laws.items()}
+        each: dict[str, list] = {name: [] for name in laws}
+        for _ in range(repeats):
+            for name, law in laws.items():
+                began = time.thread_time_ns()
+                for _ in range(turns[name]):
+                    for block in blocks:
+                        law(block)
+                each[name].append((time.thread_time_ns() - began) / (turns[name] * n))
+        found += [Row(name, n, float(min(ns)), float(np.median(ns))) for name, ns in each.items()]
+    return found
+
+
+def directions(n: int) -> Geometry:
+    """Random pairs over the hemisphere, seed 9."""
+    rng = np.random.default_rng(SEED)
+    return rows(Geometry.from_degrees(rng.uniform(1, 89, n), 0.0, rng.uniform(1, 89, n), rng.uniform(0, 360, n)))
+
+
+def _turns(law: Callable, blocks) -> int:
+    """How often a turn goes over the blocks; the first time, which forms what is kept, does not count."""
+    for block in blocks:
+        law(block)
+    began = time.thread_time()
+    law(blocks[0])
+    return max(1, int(SHORTEST / max((time.thread_time() - began) * len(blocks), 1e-7)))
+
+
+def operations(law: Callable) -> dict[str, float]:
+    """Operations per sample with the directions kept, by kind: what a second evaluation adds to a first."""
+    geom = directions(512)
+    once, twice = costs.operations(law, geom), costs.operations(lambda g: (law(g), law(g)), geom)
+    return {kind: twice[kind] - once[kind] for kind in once}
+
+
+def machine() -> dict:
+    """What the times were measured on."""
+    return {
+        "processor": _processor(), "cores": os.cpu_count(), "system": platform.system(), "python": platform.python_version(),
+        "numpy": np.__version__, "precision": "float64", "threads": 1, "clock": "thread processor time",
+    }  # fmt: skip
+
+
+def _processor() -> str:
+    info = Path("/proc/cpuinfo")
+    names = [line.partition(":")[2].strip() for line in info.read_text().splitlines() if line.startswith("model name")] if info.is_file() else []
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def front(points: Mapping[str, tuple[float, float]]) -> set[str]:
+    """Names of those points (time, error) that no other point beats in both."""
+    beats = lambda a, b: a[0] <= b[0] and a[1] <= b[1] and a != b  # noqa: E731
+    return {name for name, point in points.items() if not any(beats(other, point) for other in points.values())}
