@@ -8,7 +8,7 @@ from typer import Option
 
 from ..report import emergence
 from ..roughness import DISTANCE_MM, PUPIL_MM, WAVELENGTH
-from ._options import JsonOption, QuietOption, note, write_whole
+from ._options import JsonOption, QuietOption, note
 
 EXAMPLES = "Examples: brdfguide roughness --angle 80 --slope 0.1 | brdfguide roughness --angle 75 --tau-um 5 --plot figure14.png"
 
@@ -37,7 +37,7 @@ def roughness(
     if plot is not None:
         from ..report import emergence_plot
 
-        write_whole(plot, emergence_plot.figure14(emergence.document(**question), plot.suffix))
+        emergence_plot.draw(emergence.document(**question), plot)
         notes = [*notes, f"wrote {plot}"]
     sys.stdout.write(text)
     sys.stdout.flush()
