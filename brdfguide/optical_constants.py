@@ -3,9 +3,11 @@
 import re
 from array import array
 from dataclasses import dataclass
+from functools import lru_cache
 from math import sqrt
 
 from .errors import InputError
+from .substances import Substance
 
 
 @dataclass(frozen=True)
@@ -20,6 +22,25 @@ class Entry:
     source: str
 
 
+@lru_cache(maxsize=256)
+def substance(name: str, wavelength: float) -> Substance | None:
+    """The entry called `name` (a formula such as SiO2, or Au/Johnson) as a Substance; of several authors the one with the middle n."""
+    if not re.fullmatch(r"[A-Za-z0-9().+-]+(/[\w.+-]+)?", name) or not installed():
+        return None
+    found, _ = find(name, wavelength)
+    if not found:
+        return None
+    each = sorted(found, key=lambda entry: entry.n)[len(found) // 2]
+    note = f"the middle one of {len(found)} authors; F0 from {min(map(_f0, found)):.4f} to {max(map(_f0, found)):.4f}" if len(found) > 1 else ""
+    kind = "metal" if each.k > 1 and _f0(each) > 0.4 else "dielectric" if each.k < 0.01 and _f0(each) < 0.2 else "semiconductor"
+    return Substance(f"{each.material}/{each.page}", kind, (each.n,), (each.k,), (wavelength,), each.source, note=note)
+
+
+def _f0(entry: Entry) -> float:
+    return ((entry.n - 1) ** 2 + entry.k**2) / ((entry.n + 1) ** 2 + entry.k**2)
+
+
+@lru_cache(maxsize=1)
 def installed() -> bool:
     from importlib.util import find_spec
 

@@ -88,7 +88,8 @@ def low_gloss_dielectric(material: Material) -> Advice | None:
         return None
     drops = {lobe: "grows too little toward grazing for a dielectric (sections 4.2, 4.3)" for lobe in ("ward", "phong", "phong-lewis", "blinn")}
     if waves_show(material):
-        says, lobes = "He-Torrance, since sigma is known and near the wavelength", ("he-torrance", "ggx", "lafortune")
+        says = "He-Torrance, since a mirror image emerges" if material.emerges else "He-Torrance, since sigma is near the wavelength"
+        lobes = ("he-torrance", "ggx", "lafortune")
     elif material.finish == "matt" and material.subsurface == "lambertian":
         says, lobes = "GGX, with Fresnel's rise; on paper Lafortune's lobe fitted best, but its numbers want a measurement", ("ggx", "lafortune", "he-torrance")
     else:

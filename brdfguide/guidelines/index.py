@@ -4,7 +4,7 @@ from math import sqrt
 
 import numpy as np
 
-from .. import gloss, optics, simplified, substances
+from .. import gloss, optical_constants, optics, simplified, substances
 from ..material import Material
 from ._base import Advice, rule
 
@@ -12,7 +12,7 @@ LIQUIDS = set("water ice liquid juice milk wine beer oil blood cola coffee tea v
 
 
 def known_substance(material: Material) -> substances.Substance | None:
-    found = substances.find(material.composition) if material.composition else None
+    found = (substances.find(material.composition) or optical_constants.substance(material.composition, material.wavelength or 0.55)) if material.composition else None
     return found if found and (material.kind is None or material.kind == found.kind) else None
 
 

@@ -86,20 +86,29 @@ def text(found: Recommendation, explain: bool = False, timing: bool = True) -> s
         lines += ["", table.columns(header, rows, right=(3,) if timing else ())]
     else:
         lines += ["", "no model is recommended: " + (found.reasons[0].says if found.reasons else "nothing fits")]
+    answered = bool(found.candidates) or explain
     for title, rules in (
-        ("observed or inferred", [a for a in found.advice if not (a.guess or a.conflict or a.domain)]),
-        ("guessed", found.guesses),
+        ("observed or inferred", [a for a in found.advice if answered and not (a.guess or a.conflict or a.domain)]),
+        ("guessed", found.guesses if answered else ()),
         ("contradictory", found.conflicts),
     ):
         if rules:
             lines += ["", f"{title}:"] + [f"  {a.says}  <- {a.because}  [{a.section}]" for a in rules]
-    if found.left_out:
-        lines += ["", "left out: " + "; ".join(f"{name} ({why})" for name, why in found.left_out.items())]
+    if found.left_out and answered:
+        lines += ["", "left out: " + _grouped(found.left_out.items())]
     if found.unused:
-        lines += ["", "unused: " + "; ".join(f"{key} ({why})" for key, why in found.unused)]
+        lines += ["", "unused: " + _grouped(found.unused)]
     if explain:
         lines += ["", "silent rules:"] + [f"  {rule.__name__}: {rule.__doc__.splitlines()[0]}  [{rule.section}]" for rule in found.silent]
     return "\n".join(lines)
+
+
+def _grouped(pairs) -> str:
+    """`a, b (why); c (why)`."""
+    by_reason = {}
+    for name, why in pairs:
+        by_reason.setdefault(why, []).append(name)
+    return "; ".join(f"{', '.join(names)} ({why})" for why, names in by_reason.items())
 
 
 def _values(each: Candidate) -> str:
