@@ -5,9 +5,10 @@
 Each model is fitted to what a simulated gonioreflectometer reads at 10, 45 and 75 degrees of incidence, for five seeds of
 its noise and each variant of the stand-in, and judged also at 30, 60 and 80 degrees, which no fit has seen. He-Torrance is
 fitted with its mirror part as the receiver reads it. A finding re-emerges if it holds for every seed and variant. Nothing
-was tuned: thresholds stood in the specification before the first run. Three things were mended after it: S1.1 first compared
-the data with a fitted lobe, itself off by more than the peak; S1.5a asked which of two equal numbers is smaller; and samples
-near the mirror direction at 75 degrees were left out of the fits, which hid from He-Torrance that paper has no peak there.
+was tuned: thresholds stood in the specification before the first run. Four things were mended after it: S1.1 first compared
+the data with a fitted lobe, itself off by more than the peak; S1.5a asked which of two equal numbers is smaller; samples
+near the mirror direction at 75 degrees were left out of the fits, which hid from He-Torrance that paper has no peak there;
+and its mirror part was counted on the paint, whose data exclude it.
 """
 
 import sys
@@ -50,6 +51,7 @@ class Case:
 
     def __init__(self, surface, variant, seed):
         stem, _, index = SURFACES[surface]
+        self.omega = None if surface.startswith("S5") else OMEGA  # the mirror image of the paint's coat is excluded, as in the report
         _, i, r, f = read_truth(HERE / "samples" / "truth" / f"{stem}_{variant}.csv")
         self.truth = {(a, b): f[m, n] for m, a in enumerate(i) for n, b in enumerate(r)}
         self.seen = measurement(measure(i, r, f, seed, SEEN)[0])
@@ -65,7 +67,7 @@ class Case:
                 held.pop("he-torrance.scale")
                 model = replace(model, free=("he-torrance.scale",))
             found = fitting.fit(model, self.seen, fitting.Options(fixed=held, weights="none"))
-            if law == "he-torrance":
+            if law == "he-torrance" and self.omega:
                 found = with_mirror(found, self.seen)
             self.fits[name] = found
             residual = self.residual(found, self.seen)
@@ -77,7 +79,7 @@ class Case:
             self.rise[name] = at(75) / at(10)
 
     def reading(self, found, geom):
-        return predict.reading(found.model, geom, found.values, OMEGA)
+        return predict.reading(found.model, geom, found.values, self.omega) if self.omega else found.model(geom, found.values)
 
     def residual(self, found, data):
         return np.log(self.reading(found, data.geom) / data.brdf)[:, 0]

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
+from .. import predict
 from ..geometry import in_plane, rows
 from ..measurement import Measurement
 from . import style
@@ -49,11 +50,11 @@ def fit(ranking, measurement: Measurement, path) -> None:
         style.save(fig, path)
 
 
-def lobes(lines: list[Line], measurement: Measurement, width_mm=180, height_mm=105, note=None):
+def lobes(lines: list[Line], measurement: Measurement, width_mm=180, height_mm=105, note=None, title=None):
     """The upper figure alone."""
     with style.look():
         fig = style.figure(width_mm, height_mm)
-        _lobes(fig, lines, measurement)
+        _lobes(fig, lines, measurement, title)
         if note:
             style.origin(fig, note)
         return fig
@@ -125,13 +126,20 @@ def at_channel(values: dict, channel: int) -> dict:
     return {key: np.asarray(v)[channel] if np.ndim(v) else v for key, v in values.items()}
 
 
-def curve(line: Line, theta_i: float, theta_r, wavelength, channel: int) -> np.ndarray:
-    """The model in the plane of incidence, finite part only."""
-    geom = rows(in_plane(theta_i, theta_r, np.array([wavelength])))
-    return line.model(geom, at_channel(line.values, channel))[:, 0]
+def curve(line: Line, theta_i: float, theta_r, wavelength, channel: int, solid_angle=None) -> np.ndarray:
+    """The model in the plane of incidence; with its mirror part where the detector's solid angle is known."""
+    return seen(line, rows(in_plane(theta_i, theta_r, np.array([wavelength]))), channel, solid_angle)
 
 
-def _lobes(fig, lines, measurement):
+def seen(line: Line, geom, channel: int, solid_angle=None) -> np.ndarray:
+    """What the model gives, as the detector reads it, in one channel (samples,)."""
+    values = at_channel(line.values, channel)
+    if solid_angle is None:
+        return line.model(geom, values)[:, 0]
+    return predict.reading(line.model, geom, values, solid_angle)[:, 0]
+
+
+def _lobes(fig, lines, measurement, title=None):
     channel = nominal_channel(measurement)
     wavelength = float(np.broadcast_to(measurement.geom.wavelength, (len(measurement.channels),))[channel])
     panels, (off_plane, spread) = slices(measurement, channel)
@@ -150,8 +158,8 @@ def _lobes(fig, lines, measurement):
         sparse = picked.size < 60  # then points are larger and lie over the lines
         for number, line in enumerate(lines):
             look = dict(color=style.COLOURS[number % 8], zorder=3 - 0.01 * number)
-            top.plot(grid, _positive(curve(line, theta_i, grid, wavelength, channel)), ls=style.DASHES[number % 8], **look)
-            model = line.model(part.geom.at(np.array([wavelength])), at_channel(line.values, channel))[:, 0]
+            top.plot(grid, _positive(curve(line, theta_i, grid, wavelength, channel, measurement.solid_angle)), ls=style.DASHES[number % 8], **look)
+            model = seen(line, part.geom.at(np.array([wavelength])), channel, measurement.solid_angle)
             residual = np.log(_positive(model) / value)
             left_over.append(residual[np.isfinite(residual)])
             strip.plot(theta_r, residual, style.MARKERS[number % 8], ms=2.6 if sparse else 1.6, mew=0, alpha=0.85, **look)
@@ -171,18 +179,18 @@ def _lobes(fig, lines, measurement):
     axes[1, 0].set_ylabel("ln(model/data)")
     limit = min(3.0, max(0.15, 1.15 * np.quantile(np.abs(np.concatenate(left_over)), 0.98))) if left_over else 1.0
     axes[1, 0].set_ylim(-limit, limit)
-    fig.supxlabel("reflection angle $\\theta_r$ [deg], mirror direction marked", fontsize=8)
-    _legend(fig, lines, measurement, channel, wavelength, off_plane, spread)
+    axes[1, len(panels) // 2].set_xlabel("reflection angle $\\theta_r$ [deg], mirror direction marked")
+    _legend(fig, title, lines, measurement, channel, wavelength, off_plane, spread)
 
 
-def _legend(fig, lines, measurement, channel, wavelength, off_plane, spread):
+def _legend(fig, title, lines, measurement, channel, wavelength, off_plane, spread):
     where = "in plane" if off_plane < 1 else f"within {off_plane:g}° of the plane of incidence"
     name = measurement.channels[channel]
     label = "data" if name == "brdf" else f"data, {name}"
     handles = [Line2D([], [], ls="", marker="o", color=style.INK, ms=3, mew=0, label=f"{label}, {where}")]
     for number, line in enumerate(lines):
         handles.append(Line2D([], [], color=style.COLOURS[number % 8], ls=style.DASHES[number % 8], label=f"{line.name}  (rms ln {line.rms_ln:.3g})"))
-    fig.legend(handles=handles, loc="outside upper left", ncols=2, columnspacing=2.5)
+    fig.legend(handles=handles, loc="outside upper left", ncols=2, columnspacing=2.5, title=title, title_fontsize=9, alignment="left")
 
 
 def _cost(fig, lines):

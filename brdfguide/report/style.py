@@ -7,6 +7,7 @@ a print in grey still works. No pyplot and no global state: figures are made and
 import os
 from io import BytesIO
 from pathlib import Path
+from textwrap import wrap
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
@@ -45,8 +46,9 @@ def figure(width_mm: float = 180, height_mm: float = 120) -> Figure:
 
 
 def origin(fig, text: str) -> None:
-    """A line under the figure: where its data come from."""
-    fig.supxlabel(text, fontsize=6.5, x=0.995, ha="right", color=INK)
+    """Lines under the figure: where its data come from."""
+    letters = int(fig.get_figwidth() * 72 / 3.6)
+    fig.supxlabel("\n".join(line for each in text.split("\n") for line in wrap(each, letters)), fontsize=6.5, x=0.995, ha="right", color=INK)
 
 
 def render(fig: Figure, kind: str = "svg") -> bytes:

@@ -1,0 +1,148 @@
+"""The guide's figures, drawn by this program: curves from its own laws, samples from the files it is given.
+
+Only the text of the report is at hand: ranges and colours of its figures are ours. Every figure says where it comes from.
+"""
+
+from dataclasses import replace
+from math import pi, radians
+
+import numpy as np
+
+from .. import fitting, models, optics, predict, substances
+from ..geometry import in_plane, rows
+from ..measurement import Measurement
+from . import plot, style
+
+OURS = "computed by brdfguide"
+DIELECTRICS = ("water", "acrylic", "window glass", "diamond")
+METALS = ("nickel", "chromium", "aluminium", "silver")  # Figure 1 shows four metals
+# where a curve's name stands in Figure 1, in points above it
+ABOVE_BELOW = {"silver": ("silver", 5), "aluminium": ("aluminium", -5), "chromium": ("chromium", 5), "nickel": ("nickel", -6),
+               "diamond": ("diamond", 5), "window glass": ("window glass, acrylic, water", 6)}  # fmt: skip
+# figure -> (sample in examples/, the index that He-Torrance is given, half angle of the receiver [deg])
+SAMPLES = {4: ("rough_aluminium.csv", (0.958, 6.69), 1.5), 5: ("rough_plastic.csv", (1.5, 0.0), 1.5), 7: ("white_paper.csv", (1.5, 0.0), 1.5),
+           9: ("smooth_steel.csv", (2.87, 3.36), 0.4), 11: ("metallic_paint.csv", (1.5, 0.0), 1.5)}  # fmt: skip
+TITLES = {
+    1: "Fresnel reflectance of smooth metals and dielectrics", 2: "Effective roughness", 4: "Rough aluminium", 5: "Rough plastic", 7: "White paper",
+    9: "Nearly smooth steel", 11: "Metallic paint, mirror image of the coat excluded", 13: "Reflectance at normal incidence", 14: "Where the mirror image emerges",
+}  # fmt: skip
+FOUR = ("lambertian+phong", "lambertian+ward", "lambertian+lafortune", "lambertian+he-torrance")
+PEAK_DEG = 3.0  # about the mirror direction, left out of the fit where a mirror peak is to be predicted
+
+
+def fresnel():
+    """Figure 1: metals stay above one half, dielectrics below one fifth over most of the range."""
+    theta = np.concatenate((np.linspace(0, 85, 171), np.linspace(85, 90, 51)[1:]))
+    fig = style.figure(120, 88)
+    axis = fig.subplots()
+    for place, name in enumerate(METALS + DIELECTRICS):
+        each, metal = substances.find(name), name in METALS
+        curve = optics.fresnel(np.cos(np.radians(theta)), each.n[0], each.k[0])
+        axis.plot(theta, curve, color=style.COLOURS[0 if metal else 1], ls=style.DASHES[place % 4])
+        if name in ABOVE_BELOW:
+            axis.annotate(ABOVE_BELOW[name][0], (2, curve[0]), (0, ABOVE_BELOW[name][1]), textcoords="offset points", fontsize=7, va="center", color=style.COLOURS[0 if metal else 1])
+    axis.set(xlim=(0, 90), ylim=(0, 1.03), xlabel="angle of incidence $\\theta_i$ [deg]", ylabel="Fresnel reflectance, unpolarised", xticks=range(0, 91, 15))
+    axis.text(45, 0.52, "metals", color=style.COLOURS[0], ha="center")
+    axis.text(45, 0.27, "dielectrics", color=style.COLOURS[1], ha="center")
+    style.origin(fig, f"after Figure 1 of the guide; {OURS} from the indices of its Table 1")
+    return fig
+
+
+def effective_roughness():
+    """Figure 2: what sigma cos θ does to the roughness that light meets and to the mirror part (Eq. 1)."""
+    theta = np.linspace(0, 90, 361)
+    fig = style.figure(150, 74)
+    left, right = fig.subplots(1, 2)
+    left.plot(theta, np.cos(np.radians(theta)), color=style.COLOURS[0])
+    left.set(ylim=(0, 1.03), ylabel="effective over true roughness, cos $\\theta_i$")
+    for place, ratio in enumerate((0.02, 0.05, 0.1, 0.2, 0.5)):
+        right.plot(theta, optics.davies(1.0, np.cos(np.radians(theta)), ratio, 1.0), color=style.COLOURS[place], ls=style.DASHES[place], label=f"{ratio:g}")
+    right.set(ylim=(0, 1.03), ylabel="share left to the mirror direction, $\\rho/F$")
+    right.legend(title="$\\sigma/\\lambda$", loc="upper left", bbox_to_anchor=(1.0, 1.02), handlelength=3)
+    for axis in (left, right):
+        axis.set(xlim=(0, 90), xticks=range(0, 91, 15), xlabel="angle of incidence $\\theta_i$ [deg]")
+    style.origin(fig, f"after Figure 2 of the guide; {OURS} from its Eq. 1")
+    return fig
+
+
+def four_models(measurement: Measurement, number: int, origin: str):
+    """Figures 4, 5, 7, 11: a sample at three angles of incidence with the report's four models fitted to it.
+
+    At the metal a mirror peak is to be seen: He-Torrance's mirror part is drawn as the receiver reads it, and nothing
+    close to it was fitted. The paint gets a free scale, since its flakes reflect more than any dielectric.
+    """
+    _, (n, k), half = SAMPLES[number]
+    theta_i, theta_r = measurement.geom.theta_i_deg[:, 0], measurement.geom.signed_theta_r_deg[:, 0]
+    words = f"He-Torrance is given n = {n:g}" + (f" + {k:g}i" if k else "")
+    part = measurement
+    if number == 4:
+        measurement = replace(measurement, solid_angle=measurement.solid_angle or pi * radians(half) ** 2)
+        part = measurement[~((theta_i > 70) & (np.abs(theta_r - theta_i) <= PEAK_DEG))]
+        words += f" and reads its mirror part in a receiver of half angle {half:g}°; within {PEAK_DEG:g}° of that peak nothing was fitted"
+    else:
+        words += ", its scale is free" if number == 11 else ""
+        words += "; its mirror part is not drawn"
+    lines = []
+    for name in FOUR:
+        model, he = models.get(name), "he-torrance" in name
+        if he and number == 11:
+            model = replace(model, free=("he-torrance.scale",))
+        held = {"he-torrance.n": n, "he-torrance.k": k} if he else {}
+        found = fitting.fit(model, part, fitting.Options(fixed=held, weights="none"))
+        lines.append(plot.Line(name, found.model, found.values, found.rms_ln))
+    return plot.lobes(lines, measurement, height_mm=116, note=f"{origin}\n{words}", title=TITLES[number])
+
+
+def steel(measurement: Measurement, origin: str):
+    """Figure 9: He-Torrance at the report's roughness, not fitted; data and model divided by their peak at the least angle."""
+    _, (n, k), half = SAMPLES[9]
+    omega = measurement.solid_angle or pi * radians(half) ** 2
+    model = models.get("he-torrance")
+    values = {**model.defaults(), "he-torrance.sigma": 0.08, "he-torrance.slope": 0.08 / 1.52, "he-torrance.n": n, "he-torrance.k": k}
+    wavelength = np.atleast_1d(measurement.geom.wavelength)[:1]
+    fig = style.figure(150, 100)
+    axis = fig.subplots()
+    scale = None
+    for place, (theta, picked) in enumerate(measurement.theta_i_groups.items()):
+        part = measurement[picked]
+        grid = np.unique(np.concatenate((np.linspace(-85, 85, 341), theta + np.linspace(-2, 2, 161))))
+        line = predict.reading(model, rows(in_plane(theta, grid, wavelength)), values, omega)[:, 0]
+        if scale is None:
+            scale = line.max(), np.nanmax(part.brdf[:, 0])
+        axis.plot(part.geom.signed_theta_r_deg[:, 0], part.brdf[:, 0] / scale[1], "o", ms=1.6, mew=0, color=style.COLOURS[place % 8], alpha=0.7)
+        axis.plot(grid, line / scale[0], color=style.COLOURS[place % 8], lw=1, label=f"{theta:g}°")
+    axis.set(yscale="log", xlim=(-85, 85), ylim=(1e-6, 30), xticks=range(-75, 76, 15), xlabel="reflection angle $\\theta_r$ [deg]", ylabel="BRDF over its peak at the least incidence")
+    axis.legend(title="$\\theta_i$", loc="upper left", ncols=1)
+    given = "lines: He-Torrance at the report's σ = 0.08 µm and τ = 1.52 µm with the index of iron, not fitted"
+    style.origin(fig, f"{origin}\n{given}, {wavelength[0] * 1e3:g} nm, receiver of half angle {half:g}°")
+    return fig
+
+
+def normal_reflectance():
+    """Figure 13: even diamond lies far below the metals."""
+    found = sorted((each for each in substances.SUBSTANCES if each.table1 is not None), key=lambda each: each.table1)
+    values = [float(optics.f0(each.n[0], each.k[0])) for each in found]
+    fig = style.figure(120, 84)
+    axis = fig.subplots()
+    places = np.arange(len(found))
+    axis.barh(places, values, height=0.62, color=[style.COLOURS[0 if each.kind == "metal" else 1] for each in found])
+    for place, value in zip(places, values):
+        axis.text(value + 0.01, place, f"{value:.4f}", va="center", fontsize=7)
+    axis.set_yticks(places, [each.name for each in found])
+    axis.tick_params(axis="y", length=0)
+    axis.set(xlim=(0, 1.12), xlabel="reflectance at normal incidence")
+    axis.text(0.98, 1.2, "dielectrics", color=style.COLOURS[1], ha="right")
+    axis.text(0.98, 2.2, "metals", color=style.COLOURS[0], ha="right")
+    style.origin(fig, f"after Figure 13 of the guide; {OURS} from the indices of its Table 1")
+    return fig
+
+
+def draw(number: int, measurement: Measurement | None = None, origin: str = ""):
+    """One figure; those of samples need their measurement, and where it comes from."""
+    origin = f"after Figure {number} of the guide; {origin or OURS}"
+    with style.look():
+        if number in (4, 5, 7, 11):
+            return four_models(measurement, number, origin)
+        fig = {1: fresnel, 2: effective_roughness, 9: lambda: steel(measurement, origin), 13: normal_reflectance}[number]()
+        fig.suptitle(TITLES[number], fontsize=9, x=0.01, ha="left")
+        return fig
