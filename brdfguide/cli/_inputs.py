@@ -4,6 +4,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ._options import print_json, progress
+from ._report import show_ranking
 from ._scene import of_ranking
 
 
@@ -31,7 +32,7 @@ def sort_inputs(inputs: list[str]):
     return described, measured
 
 
-def with_measurements(answers, measured, names, scene, anyway, explain, no_timing, json, quiet) -> None:
+def with_measurements(answers, measured, names, scene, pictures, anyway, explain, no_timing, json, quiet) -> None:
     """Guidelines choose and start, the fit decides, disagreements are shown."""
     from .. import agreement, verdict
     from .. import recommend as advisor
@@ -56,6 +57,8 @@ def with_measurements(answers, measured, names, scene, anyway, explain, no_timin
         fitted = document.fit_document(ranked, data, timing=not no_timing)
         pruned.append(of_ranking(scene, ranked, data, fitted, not no_timing, quiet) if scene else "")
         results.append(measured_advice.document(told, judged, differ, fitted, not no_timing))
+        if any(pictures):
+            show_ranking(*pictures, results[-1], ranked, data, [path])
     if json:
         print_json(results[0] if len(results) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": results})
         return

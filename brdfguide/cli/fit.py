@@ -7,7 +7,8 @@ from typer import Argument, Option
 
 from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
-from ._options import JsonOption, NoTimingOption, QuietOption, command_line, print_json, progress, write_whole
+from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
+from ._report import PlotOption, ReportOption, show_ranking
 from ._scene import SceneOption, of_ranking
 
 EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit *.csv --jobs 2 --out fits"
@@ -34,8 +35,8 @@ def fit(
     mirror_side: MirrorSideOption = None,
     anyway: AnywayOption = False,
     scene: SceneOption = None,
-    plot: Annotated[Path | None, Option("--plot", help="Draw data and models (png, svg or pdf).")] = None,
-    report: Annotated[Path | None, Option("--report", help="Write one page with everything (html).")] = None,
+    plot: PlotOption = None,
+    report: ReportOption = None,
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
     jobs: Annotated[int, Option("--jobs", help="Processes for several files.", rich_help_panel=MANY)] = 1,
     out: Annotated[Path | None, Option("--out", help="Folder for an answer per file; run again to resume.", rich_help_panel=MANY)] = None,
@@ -65,11 +66,5 @@ def fit(
     if residuals:
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
     if plot or report:
-        from ..report import page
-        from ..report import plot as drawing
-
-        if plot:
-            drawing.fit(ranked, measurement, plot)
-        if report:
-            page.write(result, report, drawing.page_figures(ranked, measurement), command_line(), data)
+        show_ranking(plot, report, result, ranked, measurement, data)
     print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet) + in_scene)

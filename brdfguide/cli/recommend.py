@@ -4,8 +4,10 @@ from typing import Annotated
 
 from typer import Argument, Exit, Option
 
+from ..errors import InputError
 from ._inputs import sort_inputs, with_measurements
 from ._options import JsonOption, NoTimingOption, QuietOption, note, print_json
+from ._report import PlotOption, ReportOption, show_answer
 from ._scene import SceneOption, of_answer
 
 EXAMPLES = "Examples: brdfguide recommend porcelain | brdfguide recommend my_surface.yaml scan.csv --explain"
@@ -15,6 +17,8 @@ def recommend(
     inputs: Annotated[list[str], Argument(metavar="INPUT...", help="A description (YAML, - for standard input, or a name of `brdfguide materials`), a measurement, or both.")],
     models: Annotated[str | None, Option("--models", "-m", help="Try these sums, such as ggx,lambertian+ward.")] = None,
     scene: SceneOption = None,
+    plot: PlotOption = None,
+    report: ReportOption = None,
     explain: Annotated[bool, Option("--explain", help="Every rule, also those that were silent.")] = False,
     anyway: Annotated[bool, Option("--anyway", help="Answer also outside the guide's domain.")] = False,
     no_timing: NoTimingOption = False,
@@ -27,14 +31,18 @@ def recommend(
 
     names = [each.strip() for each in models.split(",")] if models else None
     described, measured = sort_inputs(inputs)
+    if (plot or report) and max(len(described), len(measured)) > 1:
+        raise InputError("--plot and --report show one answer; give one description, one measurement or one of each")
     answers = [advisor.recommend(each, anyway, names) for each in described]
     if measured:
-        with_measurements(answers, measured, names, scene, anyway, explain, no_timing, json, quiet)
+        with_measurements(answers, measured, names, scene, (plot, report), anyway, explain, no_timing, json, quiet)
         return
     documents = [advice.document(each, not no_timing) for each in answers]
     texts = [advice.text(each, explain, not no_timing) for each in answers]
     if scene:
         texts = [text + of_answer(scene, answer, document, not no_timing, quiet) for text, answer, document in zip(texts, answers, documents)]
+    if plot or report:
+        show_answer(plot, report, documents[0], answers[0], inputs)
     if json:
         print_json(documents[0] if len(documents) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": documents})
     else:

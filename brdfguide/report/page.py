@@ -148,6 +148,7 @@ def _doubts(document) -> str:
     rows = document.get("ranking") or []
     pick = next((row for row in rows if _name(row) == document.get("recommended")), {})
     doubts = list(document.get("warnings") or []) + list(document.get("conflicts") or []) + list(pick.get("flags") or [])
+    doubts = list(document.get("disagreements") or []) + doubts + list((document.get("scene") or {}).get("findings") or [])
     doubts += [{"code": "guess", "text": each["says"], "consequence": each.get("because")} for each in document.get("advice") or () if each.get("guess")]
     doubts += [each for each in (document.get("data") or {}).get("findings", ()) if each.get("severity") in ("warning", "error")]
     return _findings(doubts) or "<p>None was found.</p>"
@@ -190,11 +191,16 @@ def _data(document) -> str:
 
 
 def _scene(document) -> str:
-    scene = document.get("scene")
-    scene = scene.get("describe") or scene.get("text") or json.dumps(scene) if isinstance(scene, dict) else scene
-    lines = [([escape(str(each.get("term", ""))), _number(each.get("error")), _number(each.get("saving_ns")), escape(str(each.get("why", "")))], False)
+    scene = document.get("scene") or {}
+    words = ""
+    if scene:
+        error = scene.get("error", {}).get("worst_visible")
+        words = f"<p>{escape(scene.get('assumptions', ''))}</p><p>Enough for it: <strong>{escape(scene.get('pruned', ''))}</strong>"
+        words += f", {_number(error)} {escape(scene.get('unit', ''))} off at worst where it can be seen.</p>" if error is not None else ".</p>"
+    worst = lambda error: error.get("worst_visible") if isinstance(error, dict) else error  # noqa: E731
+    lines = [([escape(str(each.get("term", ""))), _number(worst(each.get("error"))), _number(each.get("saving_ns")), escape(str(each.get("why", "")))], False)
              for each in document.get("left_out") or () if isinstance(each, dict)]  # fmt: skip
-    return (f"<p>{escape(str(scene))}</p>" if scene else "") + (_table(["left out", "costs in error", "saves [ns]", "why"], lines, numbers={1, 2}) if lines else "")
+    return words + (_table(["left out", "costs in error", "saves [ns]", "why"], lines, numbers={1, 2}) if lines else "")
 
 
 def _repeat(command, files) -> str:

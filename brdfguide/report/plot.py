@@ -26,7 +26,7 @@ class Line:
     name: str
     model: object
     values: dict
-    rms_ln: float
+    rms_ln: float | None
     ns: float | None = None
     on_front: bool = False
     recommended: bool = False
@@ -57,6 +57,26 @@ def lobes(lines: list[Line], measurement: Measurement, width_mm=180, height_mm=1
         _lobes(fig, lines, measurement, title)
         if note:
             style.origin(fig, note)
+        return fig
+
+
+def promised(lines: list[Line], thetas=(10.0, 45.0, 75.0), width_mm=180, height_mm=80):
+    """Models without data at three angles of incidence, at 550 nm."""
+    with style.look():
+        fig = style.figure(width_mm, height_mm)
+        axes = fig.subplots(1, len(thetas), sharey=True)
+        for axis, theta in zip(axes, thetas):
+            grid = _grid(theta, -85.0, 85.0)
+            for number, line in enumerate(lines):
+                values = _positive(curve(line, theta, grid, NOMINAL_UM, 0))
+                axis.plot(grid, values, color=style.COLOURS[number % 8], ls=style.DASHES[number % 8], label=line.name)
+            axis.axvline(theta, color=style.RULE, lw=0.8, zorder=0)
+            axis.set(yscale="log", xlim=(-85, 85), title=f"$\\theta_i$ = {theta:g}°", xticks=(-60, -30, 0, 30, 60))
+        top = axes[0].get_ylim()[1]
+        axes[0].set_ylim(max(axes[0].get_ylim()[0], top * 1e-6), top)
+        axes[0].set_ylabel("BRDF [sr$^{-1}$]")
+        axes[len(thetas) // 2].set_xlabel("reflection angle $\\theta_r$ [deg], mirror direction marked")
+        fig.legend(handles=axes[0].get_legend_handles_labels()[0], loc="outside upper left", ncols=3)
         return fig
 
 
