@@ -139,9 +139,13 @@ def _parameters(document) -> str:
 
 
 def _candidates(document) -> str:
-    lines = [([escape(each["model"]), _typed(each.get("start") or {}),
-               escape("; cannot: ".join(filter(None, (each.get("why", ""), "; ".join(each.get("cannot") or ())))))], place == 0) for place, each in enumerate(document.get("candidates") or ())]  # fmt: skip
-    return _table(["model", "start from", "why"], lines) if lines else ""
+    """Each with the values to start from, why it is there and what it cannot do."""
+    out = []
+    for each in document.get("candidates") or ():
+        cannot = "; ".join(each.get("cannot") or ())
+        out.append(f"<h3>{escape(each['model'])}</h3><p>{_typed(each.get('start') or {})}</p><p>{escape(each.get('why', ''))}</p>"
+                   + (f'<p class="soft">cannot: {escape(cannot)}</p>' if cannot else ""))  # fmt: skip
+    return "".join(out)
 
 
 def _doubts(document) -> str:
