@@ -9,7 +9,7 @@ import numpy as np
 from . import levenberg, sampling, starts, uncertainty
 from .errors import InputError, choices
 from .measurement import Finding, Measurement
-from .misfit import SMALLEST, Layout, Metric, Misfit, evaluate, metric
+from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
 from .models import Sum
 
 SEARCH_SAMPLES = 800  # directions on which the starts are followed
@@ -175,7 +175,7 @@ def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = 
 def ln_residuals(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
     """ln(model/data), (samples, channels), NaN where nothing was measured."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = np.maximum(evaluate(model, measurement.geom, values), SMALLEST) / np.where(measurement.usable, measurement.brdf, np.nan)
+        ratio = np.maximum(seen(model, measurement, values), SMALLEST) / np.where(measurement.usable, measurement.brdf, np.nan)
         return np.log(ratio)
 
 

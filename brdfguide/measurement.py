@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from . import aperture
 from .geometry import Geometry
 
 
@@ -48,6 +49,11 @@ class Measurement:
         """(samples, channels): finite, positive and above the horizon; the rest is censored, never clipped."""
         with np.errstate(invalid="ignore"):
             return np.isfinite(self.brdf) & (self.brdf > 0) & self.geom.lit
+
+    @cached_property
+    def views(self) -> list[tuple[float, Geometry]]:
+        """What the detector averages: weights and directions; one of each where it is taken for a point."""
+        return aperture.views(self.geom, self.solid_angle)
 
     @property
     def censored(self) -> int:

@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from . import predict
 from .errors import choices
 from .geometry import Geometry
 from .measurement import Measurement
@@ -18,6 +19,7 @@ from .models import Sum
 from .models._base import Parameter
 
 LARGE, THREADS = 32_768, 2  # directions beyond which blocks and threads pay
+STEP = 1e-5  # of a coordinate, for central differences
 SMALLEST = 1e-300  # where a law underflows its logarithm is taken here: far off, but finite
 
 
@@ -143,8 +145,8 @@ class Misfit:
     def __call__(self, shared, own, want_jacobian: bool):
         values = self.layout.decode(shared, own)
         if not want_jacobian:
-            return self._residual(evaluate(self.layout.model, self.measurement.geom, values))
-        f, slopes = with_slopes(self.layout, self.measurement.geom, values)
+            return self._residual(seen(self.layout.model, self.measurement, values))
+        f, slopes = seen_with_slopes(self.layout, self.measurement, values)
         residual = self._residual(f)
         factor = self._root_weights * (1 / self._data if self.metric.relative else self.metric.slope(np.maximum(f, SMALLEST)))
         return residual, self._stack(self.layout.shared, slopes, factor), self._stack(self.layout.own, slopes, factor)
@@ -161,6 +163,32 @@ class Misfit:
         for place, key in enumerate(keys):
             stacked[:, :, place] = (slopes[key] * factor).T
         return stacked
+
+
+def seen(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
+    """What the instrument would read (samples, channels): the mean over its aperture, and the mirror beam inside it."""
+    total = sum(weight * evaluate(model, geom, values) for weight, geom in measurement.views)
+    if measurement.solid_angle is None or not model.has_mirror:
+        return total
+    return total + model.mirror(measurement.geom.where_lit(), values) * predict.spike(measurement.geom, measurement.solid_angle)
+
+
+def seen_with_slopes(layout: Layout, measurement: Measurement, values: Mapping):
+    """`seen`, and its derivative with respect to each free coordinate; the mirror beam's by central differences."""
+    total, slopes = 0.0, dict.fromkeys(layout.parameters, 0.0)
+    for weight, geom in measurement.views:
+        part, part_slopes = with_slopes(layout, geom, values)
+        total = total + weight * part
+        slopes = {key: slopes[key] + weight * slope for key, slope in part_slopes.items()}
+    if measurement.solid_angle is None or not layout.model.has_mirror:
+        return total, slopes
+    beam, geom = predict.spike(measurement.geom, measurement.solid_angle), measurement.geom.where_lit()
+    total = total + layout.model.mirror(geom, values) * beam
+    for key, parameter in layout.parameters.items():
+        at = to_coordinate(parameter, np.asarray(values[key], float))
+        ends = [layout.model.mirror(geom, {**values, key: from_coordinate(parameter, at + step)}) for step in (STEP, -STEP)]
+        slopes[key] = slopes[key] + (ends[0] - ends[1]) / (2 * STEP) * beam
+    return total, slopes
 
 
 def evaluate(model: Sum, geom: Geometry, values: Mapping) -> np.ndarray:
@@ -208,10 +236,10 @@ def with_slopes(layout: Layout, geom: Geometry, values: Mapping) -> tuple[np.nda
     return total, slopes
 
 
-def _difference(model, geom: Geometry, values: dict, parameter: Parameter, step: float = 1e-5):
+def _difference(model, geom: Geometry, values: dict, parameter: Parameter):
     """Central difference in the coordinate, one-sided at a bound."""
     at = to_coordinate(parameter, np.asarray(values[parameter.name], float))
     low, high = to_coordinate(parameter, parameter.low), to_coordinate(parameter, parameter.high)
-    above, below = np.minimum(at + step, high), np.maximum(at - step, low)
+    above, below = np.minimum(at + STEP, high), np.maximum(at - STEP, low)
     ends = [model(geom, **{**values, parameter.name: from_coordinate(parameter, end)}) for end in (above, below)]
     return (ends[0] - ends[1]) / (above - below)

@@ -12,6 +12,7 @@ FLOORS = tuple(
     for floor in (
         """
         albedo
+        aperture
         catalog
         errors
         geometry

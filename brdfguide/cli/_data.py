@@ -19,11 +19,21 @@ AveragePhiOption = Annotated[bool, Option("--average-phi-i", help="Average an an
 AnywayOption = Annotated[bool, Option("--anyway", help="Answer also outside the guide and against contradictions.", rich_help_panel=DATA)]
 
 
-def read_examined(data, *options, anyway: bool = False):
-    """As `read`, with what is certainly wrong undone, spikes left out and every doubt noted; see `inspect`."""
+ApertureOption = Annotated[float | None, Option("--aperture-deg", help="Half angle of the detector's cone: include it.", rich_help_panel=DATA)]
+
+
+def read_examined(data, *options, anyway: bool = False, aperture_deg: float | None = None):
+    """As `read`, with the detector's aperture where it is given, with what is certainly wrong undone, spikes left out and every doubt noted; see `inspect`."""
     from .. import examine
 
-    return examine.prepared(read(data, *options), anyway=anyway)
+    measurement = read(data, *options)
+    if aperture_deg is not None:
+        from dataclasses import replace
+
+        from ..aperture import solid_angle_of
+
+        measurement = replace(measurement, solid_angle=solid_angle_of(aperture_deg))
+    return examine.prepared(measurement, anyway=anyway)
 
 
 def read(data, *options, **more):

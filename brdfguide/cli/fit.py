@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from ._data import AnywayOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
+from ._data import AnywayOption, ApertureOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
 from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
 from ._report import PlotOption, ReportOption, show_ranking
@@ -33,6 +33,7 @@ def fit(
     unit: UnitOption = None,
     quantity: QuantityOption = None,
     mirror_side: MirrorSideOption = None,
+    aperture_deg: ApertureOption = None,
     anyway: AnywayOption = False,
     scene: SceneOption = None,
     plot: PlotOption = None,
@@ -58,7 +59,7 @@ def fit(
         from ._batch import fit_many
 
         fit_many(data, Job(options, kind, names, reading_options(*reading), anyway), out, jobs, json, quiet)
-    measurement = read_examined(data[0], *reading, anyway=anyway)
+    measurement = read_examined(data[0], *reading, anyway=anyway, aperture_deg=aperture_deg)
     with progress(3 * len(candidates), quiet) as tell:
         ranked = compare(measurement, candidates, options, tell)
     result = document.fit_document(ranked, measurement, timing=not no_timing)

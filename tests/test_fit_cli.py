@@ -1,0 +1,107 @@
+"""`brdfguide fit` and `evaluate` as a user meets them: printed numbers hold, bad input is one sentence, many files go on."""
+
+import csv
+import io
+import json
+import math
+import subprocess
+import sys
+
+import pytest
+
+from .conftest import ROOT
+
+DATA = ROOT / "examples" / "rough_plastic.csv"
+QUICK = ("-m", "lambertian+ggx,lambertian+ward,lambertian+phong")
+
+
+def brdfguide(*words, cwd=ROOT):
+    run = [sys.executable, "-W", "error", "-m", "brdfguide", *map(str, words)]
+    return subprocess.run(run, cwd=cwd, capture_output=True, text=True, env=None, timeout=120)
+
+
+@pytest.fixture(scope="module")
+def fitted(tmp_path_factory):
+    path = tmp_path_factory.mktemp("fit") / "fit.json"
+    run = brdfguide("fit", DATA, *QUICK, "--json")
+    assert run.returncode == 0, run.stderr
+    path.write_text(run.stdout)
+    return path
+
+
+def test_json_is_one_object_of_the_contract(fitted):
+    document = json.loads(fitted.read_text())
+    assert document["schema"] == "brdfguide/fit/1"
+    assert {"data", "ranking", "recommended", "because", "left_out"} <= document.keys()
+    row = document["ranking"][0]
+    wanted = {"rank", "tied", "model", "rms_ln", "rms_ln_by_theta_i", "held_out_rms_ln", "behind", "behind_se", "parameters"}
+    assert wanted | {"time_per_sample_ns", "fit_time_s", "evaluations", "on_front", "flags"} <= row.keys()
+    assert {"value", "stderr", "unit", "at_bound"} <= row["parameters"]["lambertian.albedo"].keys()
+
+
+def test_printed_parameters_reproduce_the_printed_error(fitted):
+    """An independent ten lines: the values at the data's directions, and the rms of ln(model/data)."""
+    document = json.loads(fitted.read_text())
+    for row in document["ranking"]:
+        values = brdfguide("evaluate", "--fit", fitted, "--model", row["candidate"], "--data", DATA)
+        model = [float(each["brdf"]) for each in csv.DictReader(io.StringIO(values.stdout))]
+        data = [float(line.split(",")[2]) for line in DATA.read_text().splitlines() if line[:1].isdigit()]
+        rms = math.sqrt(sum(math.log(m / d) ** 2 for m, d in zip(model, data, strict=True)) / len(data))
+        assert rms == pytest.approx(row["rms_ln"], rel=1e-6)
+
+
+def test_two_runs_without_timing_are_the_same_bytes():
+    one, other = (brdfguide("fit", DATA, *QUICK, "--json", "--no-timing").stdout for _ in range(2))
+    assert one == other and "time" not in one.split('"findings"')[0]
+
+
+def test_a_pipe_gets_plain_columns_and_the_answer():
+    run = brdfguide("fit", DATA, *QUICK)
+    assert run.returncode == 0 and run.stderr == ""
+    assert "recommended: lambertian+ggx" in run.stdout and "\x1b" not in run.stdout and "│" not in run.stdout
+
+
+def test_fixed_parameters_stay_fixed():
+    run = brdfguide("fit", DATA, "-m", "lambertian+ggx", "--fix", "ggx.n=1.5", "--json")
+    entry = json.loads(run.stdout)["ranking"][0]["parameters"]["ggx.n"]
+    assert entry["value"] == 1.5 and not entry["fitted"]
+
+
+WRONG = {
+    ("--fix", "ggx.beta=1"): "no parameter of any candidate called 'ggx.beta'",
+    ("--fix", "alpha"): "wanted name=number",
+    ("--metric", "log"): "no metric called 'log'",
+    ("--weights", "stderr2"): "no weighting called 'stderr2'",
+    ("-m", "lambertian+gxg"): "did you mean ggx",
+    ("-m", "lafortune:9"): "lobes are counted from 1 to 3",
+    ("--kind", "plastic"): "no kind of surface called 'plastic'",
+    ("--wavelength", "green"): "wanted nanometres",
+    ("--theta-max", "200"): "wanted an angle",
+    ("--aperture-deg", "90"): "half angle",
+}
+
+
+@pytest.mark.parametrize("words", list(WRONG), ids=" ".join)
+def test_a_wrong_option_is_one_sentence_and_status_2(words):
+    run = brdfguide("fit", DATA, *words)
+    assert run.returncode == 2 and run.stdout == ""
+    assert WRONG[words] in run.stderr and run.stderr.count("\n") == 1 and "Traceback" not in run.stderr
+
+
+def test_many_files_go_on_past_a_bad_one_and_resume(tmp_path):
+    bad = tmp_path / "bad.csv"
+    bad.write_text("theta_i,theta_r,brdf\n10,x,0.1\n")
+    first = brdfguide("fit", DATA, bad, *QUICK, "--out", tmp_path / "fits", "--jobs", 2)
+    assert first.returncode == 2 and "bad.csv" in first.stderr and "lambertian+ggx" in first.stdout
+    again = brdfguide("fit", DATA, bad, *QUICK, "--out", tmp_path / "fits")
+    assert "answered before" in again.stdout
+    assert len(list((tmp_path / "fits").iterdir())) == 1, "no answer, and nothing half-written, for the bad one"
+
+
+def test_residuals_file_holds_every_value(tmp_path):
+    place = tmp_path / "r.csv"
+    run = brdfguide("fit", DATA, *QUICK, "--residuals", place, "--json")
+    recommended = json.loads(run.stdout)
+    row = next(each for each in recommended["ranking"] if each["candidate"] == recommended["recommended"])
+    values = [float(each["ln_ratio"]) for each in csv.DictReader(line for line in place.read_text().splitlines() if line[0] != "#")]
+    assert math.sqrt(sum(value**2 for value in values) / len(values)) == pytest.approx(row["rms_ln"], rel=1e-6)
