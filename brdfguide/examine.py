@@ -46,8 +46,7 @@ def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
     beyond = outside(found)
     if beyond and not anyway:
         raise NoAnswer(f"{measurement.name or 'measurement'}: {beyond[0].text}; {beyond[0].consequence}; {beyond[0].option} answers all the same")
-    spiky = spikes(measurement) if measurement.solid_angle is None else np.zeros(len(measurement.geom), bool)
-    if np.any(spiky):
+    if measurement.solid_angle is None and not anyway and np.any(spiky := spikes(measurement)):
         measurement = replace(measurement, brdf=np.where(spiky[:, None], np.nan, measurement.brdf))
     return measurement.noting(*(finding for finding in found if finding.severity != "note"))
 
@@ -266,8 +265,8 @@ def _marks(m: Measurement):
 def _spikes(m: Measurement, spiky):
     count = int(np.count_nonzero(spiky))
     if count:
-        text = f"{count} samples at the mirror direction stand alone above a flat surrounding: an ideal mirror seen through the instrument"
-        yield Finding("spikes", text, "warning", "their height is the aperture's, not the surface's: left out of fits", numbers=(("samples", count),))
+        text = f"{count} samples at the mirror direction stand alone above their surroundings: an ideal mirror seen through the instrument"
+        yield Finding("spikes", text, "warning", "their height is the aperture's, not the surface's: left out of fits", "--anyway", (("samples", count),))
 
 
 def _noise(m: Measurement):

@@ -6,6 +6,7 @@ from .measurement import Measurement
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 SPIKE_DROP = np.log(3.0)  # and stands this far, in ln, above what surrounds it
+STEEPER = 3.0  # and drops this many times as fast as what surrounds it goes on to fall
 GRAZING_DEG = 85.0
 
 
@@ -28,7 +29,7 @@ def noise(measurement: Measurement) -> float | None:
 
 
 def spikes(measurement: Measurement) -> np.ndarray:
-    """(samples,) mask of directions one or two samples wide at the mirror direction that stand far above a flat surrounding.
+    """(samples,) mask of directions one or two samples wide at the mirror direction that stand far above their surroundings.
 
     An ideal mirror, seen through the instrument, gives such values; their height says more about the aperture than about the surface.
     """
@@ -40,12 +41,12 @@ def spikes(measurement: Measurement) -> np.ndarray:
     for rows in _groups(measurement):
         rows = rows[np.isfinite(level[rows])]
         rows = rows[np.argsort(distance[rows], kind="stable")]
-        for core in (3, 2, 1):
+        for core in (2, 1):
             if len(rows) < core + 5 or distance[rows[core - 1]] > SPIKE_DEG or distance[rows[core]] < 0.5:
                 continue
-            around = level[rows[core : core + 6]]
+            around = level[rows[core : core + 4]]
             drop = level[rows[:core]].min() - around.max()
-            if drop > SPIKE_DROP and drop > 3 * (around.max() - np.median(around)):
+            if drop > SPIKE_DROP and drop > STEEPER * (around[:2].mean() - around[2:].mean()):
                 mask[rows[:core]] = True
                 break
     return mask

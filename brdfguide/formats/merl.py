@@ -49,7 +49,8 @@ def read(source: Source, options: Options) -> Measurement:
     notes = [Finding("table", text, consequence=consequence, numbers=(("cells", count), ("below_horizon", below), ("invalid", invalid)))]
     if invalid:
         notes.append(Finding("invalid-cells", f"{invalid} cells above the horizon are marked as invalid and were dropped", numbers=(("cells", invalid),)))
-    notes.append(nominal_colours("RGB"))
+    text = "values near grazing were extrapolated when such tables were made; published comparisons leave out what lies beyond 80 degrees"
+    notes += [Finding("extrapolated-grazing", text, option="--theta-max 80"), nominal_colours("RGB")]
     return Measurement(geom, brdf, ("R", "G", "B"), name=source.name, format="MERL .binary", findings=tuple(notes))
 
 
