@@ -1,13 +1,38 @@
-"""What `export` reads: a fit's JSON, a material, or a model with parameters on the command line."""
+"""What `export` reads: a fit's or a recommendation's JSON, a described material, or a model with parameters typed out."""
 
+import json
 from math import radians
 from pathlib import Path
+from typing import Annotated
 
-from ..errors import InputError, choices
+from typer import Option
+
+from ..errors import BrdfguideError, InputError, NoAnswer, choices
+
+ExportOption = Annotated[list[str] | None, Option("--export", help="TARGET:FILE, such as mitsuba:paint.xml, of the recommended model; repeatable.")]
+MaxErrorOption = Annotated[float | None, Option("--max-export-error", help="Export nothing whose rms ln exceeds this.")]
+
+
+def export_all(specs, model, values, channels, wavelength, geom, name, most, quiet) -> BrdfguideError | None:
+    """Every `--export`; gives the error that stopped it, to be raised once the answer itself is printed.
+
+    Files that the user named are replaced, as pictures are.
+    """
+    from .. import exporters
+    from ._options import command_line, note, write_whole
+
+    try:
+        for spec in specs or ():
+            statement = exporters.export_to(spec, model, values, channels, wavelength, geom, name=name, command=command_line(), most=most, write=write_whole)
+            for line in (statement.sentence(), *statement.notes):
+                note(line, quiet)
+    except BrdfguideError as error:
+        return error
+    return None
 
 
 def read_surface(words: list[str], model: str | None, channel: str | None, name: str, command: str):
-    """The exporters.Surface that the words and options mean. Raises InputError."""
+    """The exporters.Surface that the words and options mean. Raises InputError; NoAnswer for a material outside the guide's domain."""
     from .. import exporters
 
     inputs = [word for word in words if "=" not in word]
@@ -17,9 +42,10 @@ def read_surface(words: list[str], model: str | None, channel: str | None, name:
     if inputs:
         if given:
             raise InputError(f"{inputs[0]} has its parameters already; {given[0]} needs --model instead of an input")
-        return exporters.surface_of(_saved(inputs[0], model), name, command, channel)
+        saved = _from_json(inputs[0], model) if inputs[0].endswith(".json") else described(inputs[0], model)
+        return exporters.surface_of(saved, name, command, channel)
     if model is None:
-        raise InputError("what to export: a fit's JSON, a material's YAML, or --model with NAME=VALUE parameters")
+        raise InputError("what to export: a fit's JSON, a material's name or YAML, or --model with NAME=VALUE parameters")
     return exporters.surface_of(_typed(model, given), name, command, channel)
 
 
@@ -30,51 +56,82 @@ def named_surface(words: str):
     first, *given = words.split() or [""]
     file, _, row = first.partition("#")
     if Path(file).suffix.lower() == ".json":
-        found = _saved(file, row or None)
+        found = _from_json(file, row or None)
         return exporters.surface_of(found, row or found.model.name)
     term = first.split("+")[0].partition(":")[0].replace("_", "-")
-    described = Path(first).suffix.lower() in (".yaml", ".yml") or (first in shelf.names() and term not in catalog.names("models"))
-    if described:
-        return exporters.surface_of(_recommended(first), Path(first).stem)
+    is_material = Path(first).suffix.lower() in (".yaml", ".yml") or (first in shelf.names() and term not in catalog.names("models"))
+    if is_material:
+        return exporters.surface_of(described(first), Path(first).stem)
     return exporters.surface_of(_typed(first, given), first)
 
 
-def _recommended(name: str):
-    """The first candidate for a material, at its start values. Raises NoAnswer outside the domain."""
+def described(text: str, model: str | None = None):
+    """The first candidate, or the one called `model`, for a material by name or YAML, as a Saved."""
+    from .. import material, shelf
+    from .. import recommend as advisor
+
+    path = text if text == "-" or text.endswith((".yaml", ".yml")) else shelf.path(text)
+    return of_recommendation(advisor.recommend(material.read_material(path), names=[model] if model else None))
+
+
+def of_recommendation(found):
+    """The first candidate of a Recommendation as a Saved. Raises NoAnswer where there is none."""
+    if not found.candidates:
+        raise NoAnswer(f"{found.material.name or 'this surface'} is outside the guide's domain: {found.reasons[0].says}")
+    pick = found.candidates[0]
+    return _saved(pick.model, dict(pick.start))
+
+
+def _saved(sum_, values: dict):
+    """Values, some of them three colours, as a Saved: grey, or red, green and blue."""
     import numpy as np
 
-    from .. import material, recommend, shelf
-    from ..errors import NoAnswer
     from ..saved import Saved
+    from ..substances import RGB_UM
 
-    answer = recommend.recommend(material.read_material(name if Path(name).suffix else shelf.path(name)))
-    if not answer.candidates:
-        raise NoAnswer(f"{name}: no candidate; `brdfguide recommend {name}` says why")
-    best = answer.candidates[0]
-    values = {key: np.array(value) if isinstance(value, tuple) else value for key, value in best.start.items()}
-    colours = max((np.size(value) for value in values.values()), default=1)
-    channels, um = (("R", "G", "B"), [0.61, 0.55, 0.46]) if colours == 3 else (("550 nm",), [0.55])
-    return Saved(best.model, {**best.model.defaults(), **values}, channels, np.array(um), {})
+    counts = {len(value) for value in values.values() if isinstance(value, (list, tuple, np.ndarray)) and len(value) > 1}
+    if counts - {3}:
+        raise InputError(f"a parameter has {max(counts)} values; wanted one, or three for red, green and blue")
+    values = {key: np.array(value, float) if isinstance(value, (list, tuple)) and len(value) > 1 else float(np.ravel(value)[0]) for key, value in values.items()}
+    if counts:
+        return Saved(sum_, values, ("R", "G", "B"), np.array(RGB_UM), {})
+    return Saved(sum_, values, ("550 nm",), np.array([0.55]), {})
 
 
-def _saved(path: str, model: str | None):
-    from .. import saved
+def _from_json(path: str, model: str | None):
+    """A fit's JSON, or a recommendation's without a fit."""
+    from .. import models, saved
 
-    if Path(path).suffix.lower() in (".yaml", ".yml"):
-        raise InputError(f"{path}: recommend it first: brdfguide recommend {path} --json > fit.json")
-    return saved.read_fit(path, model)
+    try:
+        document = json.loads(Path(path).read_text())
+    except (OSError, ValueError):
+        document = None  # read_fit says what is wrong with it
+    if not isinstance(document, dict) or "candidates" not in document or document.get("ranking"):
+        return saved.read_fit(path, model)
+    if not document["candidates"]:
+        raise NoAnswer(f"{path}: recommends no model")
+    named = {each["model"]: each["start"] for each in document["candidates"]}
+    wanted = model or document["candidates"][0]["model"]
+    if wanted not in named:
+        raise choices("candidate", wanted, named)
+    sum_ = models.get(wanted)
+    turned = {key: _inside(value, sum_.parameters[key].unit) for key, value in named[wanted].items() if key in sum_.parameters}
+    return _saved(sum_, turned)
+
+
+def _inside(value, unit: str):
+    """Radians for an angle, otherwise the same."""
+    if unit != "rad":
+        return value
+    return [radians(each) for each in value] if isinstance(value, list) else radians(value)
 
 
 def _typed(model: str, given: list[str]):
     """A model and its parameters from words such as ggx.alpha=0.2 or lambertian.albedo=0.1,0.2,0.3; angles in degrees."""
-    import numpy as np
-
     from .. import models
-    from ..saved import Saved
 
     sum_ = models.get(model)
     values = dict(sum_.defaults())
-    colours = 1
     for word in given:
         key, _, text = word.partition("=")
         if key not in sum_.parameters:
@@ -83,12 +140,5 @@ def _typed(model: str, given: list[str]):
             numbers = [float(part) for part in text.split(",")]
         except ValueError:
             raise InputError(f"{word}: wanted one number, or three with commas for red, green and blue") from None
-        if len(numbers) not in (1, 3):
-            raise InputError(f"{word}: {len(numbers)} numbers; wanted one, or three for red, green and blue")
-        if sum_.parameters[key].unit == "rad":
-            numbers = [radians(number) for number in numbers]
-        colours = max(colours, len(numbers))
-        values[key] = np.array(numbers) if len(numbers) == 3 else numbers[0]
-    if colours == 3:
-        return Saved(sum_, values, ("R", "G", "B"), np.array([0.61, 0.55, 0.46]), {})
-    return Saved(sum_, values, ("550 nm",), np.array([0.55]), {})
+        values[key] = _inside(numbers, sum_.parameters[key].unit)
+    return _saved(sum_, values)

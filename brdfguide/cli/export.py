@@ -6,17 +6,16 @@ from typing import Annotated
 from typer import Argument, Option
 
 from ..errors import InputError
-from ._options import ForceOption, JsonOption, QuietOption, note, print_json, write_whole
+from ._options import ForceOption, JsonOption, QuietOption, command_line, note, print_json, write_whole
 
-EXAMPLES = """Examples: brdfguide export fit.json --to mitsuba -o paint.xml --max-export-error 0.1
-| brdfguide export --model lambertian+ggx lambertian.albedo=0.3 ggx.alpha=0.12 --to rgl -o paint.bsdf"""
+EXAMPLES = "Examples: brdfguide export fit.json --to mitsuba -o paint.xml --max-export-error 0.1 | brdfguide export porcelain --to rgl -o porcelain.bsdf"
 
 
 def export(
-    words: Annotated[list[str] | None, Argument(metavar="[INPUT] [NAME=VALUE]...", help="A fit's JSON, or parameters for --model; R,G,B after = for colours.")] = None,
+    words: Annotated[list[str] | None, Argument(metavar="[INPUT] [NAME=VALUE]...", help="A fit's JSON, a material, or parameters for --model; R,G,B after = for colours.")] = None,
     to: Annotated[str | None, Option("--to", help="Target; without one: the list of targets.")] = None,
     output: Annotated[Path | None, Option("--output", "-o", help="File to write; - is standard output.")] = None,
-    model: Annotated[str | None, Option("--model", help="A model by name; with a fit: which of its rows.")] = None,
+    model: Annotated[str | None, Option("--model", help="A model by name; with an input: which of its candidates.")] = None,
     channel: Annotated[str | None, Option("--channel", help="One channel alone, as grey.")] = None,
     data: Annotated[Path | None, Option("--data", help="Judge and refit over this file's directions.")] = None,
     name: Annotated[str | None, Option("--name", help="Name inside the file; left out: the file's.")] = None,

@@ -10,6 +10,7 @@ from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChan
 from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
 from ._report import PlotOption, ReportOption, show_ranking
 from ._scene import SceneOption, of_ranking
+from ._surface import ExportOption, MaxErrorOption, export_all
 
 EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit *.csv --jobs 2 --out fits"
 
@@ -41,6 +42,8 @@ def fit(
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
     jobs: Annotated[int, Option("--jobs", help="Processes for several files.", rich_help_panel=MANY)] = 1,
     out: Annotated[Path | None, Option("--out", help="Folder for an answer per file; run again to resume.", rich_help_panel=MANY)] = None,
+    export: ExportOption = None,
+    max_export_error: MaxErrorOption = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
     no_timing: NoTimingOption = False,
@@ -68,4 +71,8 @@ def fit(
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
     if plot or report:
         show_ranking(plot, report, result, ranked, measurement, data)
+    best = ranked.recommended.fit
+    failed = export_all(export, best.model, best.values, measurement.channels, measurement.geom.wavelength, measurement.geom, data[0].stem, max_export_error, quiet)
     print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet) + in_scene)
+    if failed:
+        raise failed

@@ -137,7 +137,7 @@ class Refused(NoAnswer):
         self.nearest = nearest
 
 
-def refuse_mirror(surface: Surface, target: str, nearest: str = "mitsuba") -> tuple[str, ...]:
+def refuse_mirror(surface: Surface, target: str, nearest: str = "rgl") -> tuple[str, ...]:
     """Refuses a surface with an ideal mirror for a target that holds finite values alone; a glint at grazing is a sentence."""
     if surface.has_mirror:
         why = f"its ideal mirror reflects up to {surface.mirror_most[1]:.2g} of the light beside a finite part, and the target holds one of the two"

@@ -60,7 +60,7 @@ class Table:
         return np.maximum(value, 0) * (ndf / (4 * sigma))[:, None] / geom.cos_r
 
 
-def tabulate(brdf, size: int, theta_i=THETA_I) -> Table:
+def tabulate(brdf, size: int) -> Table:
     """The Table of brdf(geom (samples, 1)) -> (samples, channels), with size x size half vectors for each incidence."""
     fine = np.linspace(0, 1, FINE)
     sigma = _sigma(brdf, fine)
@@ -70,11 +70,11 @@ def tabulate(brdf, size: int, theta_i=THETA_I) -> Table:
     theta_m, phi_m = u * u * (pi / 2), (2 * u - 1) * pi
     ndf_at = lambda theta: np.interp(np.sqrt(2 * theta / pi), fine, ndf)  # noqa: E731
     layers = []
-    for theta in theta_i:
+    for theta in THETA_I:
         value, tilt = _outgoing(brdf, np.full(size * size, theta), np.tile(theta_m, size), np.repeat(phi_m, size))
         layers.append((value * (4 * sigma_at(theta) / ndf_at(tilt))[:, None]).T.reshape(-1, size, size))
     twice = lambda values: np.stack((values, values)).astype(np.float32)  # noqa: E731
-    return Table(theta_i.astype(np.float32), twice(sigma), twice(ndf), np.array(layers).astype(np.float32))
+    return Table(THETA_I.astype(np.float32), twice(sigma), twice(ndf), np.array(layers).astype(np.float32))
 
 
 def _sigma(brdf, fine):

@@ -3,7 +3,7 @@
 90 x 90 x 180 cells in three colours, each with the model's value at its centre; the index of theta_h grows as its
 square root. Readers take the nearest cell, so a value is off by what the model changes within half a cell, which is
 what the residual shows. The layout assumes reciprocity: a law without it is averaged over the exchange of light and
-view. The ideal mirror has no place in a table, and the format none for a comment.
+view. An ideal mirror has no place in a table and is blurred; the format has none for a comment.
 
 Source: Matusik, Pfister, Brand and McMillan 2003, "A data-driven reflectance model".
 """
@@ -14,7 +14,8 @@ from math import pi
 import numpy as np
 
 from ..geometry import Geometry, rows
-from ._base import EXACT, Export, Exporter, Statement, Surface, refuse_mirror
+from ._base import EXACT, Export, Exporter, Statement, Surface
+from ._blurred import blurred
 from ._directions import chosen, rms_ln
 
 THETA_H, THETA_D, PHI_D = 90, 90, 180
@@ -24,7 +25,7 @@ NOTHING = -1.0  # below the horizon
 
 def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Bytes and their Statement."""
-    lost = refuse_mirror(surface, "merl")
+    surface, lost = blurred(surface)
     one_way = any("reciprocity" in term.model.breaks for term in surface.model.terms)
     lost += ("light and view, which this law does not exchange freely, are averaged",) if one_way else ()
     table = _table(surface, one_way)

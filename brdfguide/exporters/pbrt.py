@@ -26,7 +26,7 @@ def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface"
     if is_smooth(surface):
         choice, lost = _polished(surface), ()
     else:
-        lost = refuse_mirror(surface, "pbrt") + what_is_lost(surface)
+        lost = refuse_mirror(surface, "pbrt", "rgl-spectral") + what_is_lost(surface)
         choice = choose(surface, geom, _candidates(surface, spectral), spectral=spectral)
     statement = choice.statement("pbrt", surface, lost=lost, colour="wavelengths as they are" if spectral else "")
     values = choice.values

@@ -1,13 +1,14 @@
 """RGL `.bsdf`, by wavelength: a table of any model for Mitsuba's spectral variants and pbrt's `measured` material.
 
 Wavelengths are written as they are. One channel is written at both ends of the visible range, so that it is grey.
-Red, green and blue have no wavelength and are refused.
+Red, green and blue stand at their nominal wavelengths, between which a reader interpolates: their hue is approximate.
 """
 
 import numpy as np
 
 from ..geometry import Geometry
-from ._base import EXACT, Export, Exporter, Refused, Statement, Surface, header, refuse_mirror
+from ._base import EXACT, Export, Exporter, Refused, Statement, Surface, header
+from ._blurred import blurred
 from ._directions import chosen
 from ._tensor import Table, best_table, fields, packed
 
@@ -16,11 +17,13 @@ VISIBLE_NM = np.array([360.0, 830.0])
 
 def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Bytes and their Statement."""
-    if surface.colour.named and len(surface.channels) > 1:
-        raise Refused("rgl-spectral", f"channels {', '.join(surface.channels)} are colours, not wavelengths", "rgl")
-    lost = refuse_mirror(surface, "rgl-spectral")
+    surface, lost = blurred(surface)
     geom, wanted, over = chosen(surface, geom, spectral=True)
-    nm = 1e3 * np.asarray(surface.wavelength, float)
+    nm = 1e3 * np.broadcast_to(np.asarray(surface.wavelength, float), (len(surface.channels),))
+    if len(set(nm.tolist())) < len(nm):
+        raise Refused("rgl-spectral", f"channels {', '.join(surface.channels)} have no wavelengths of their own", "rgl")
+    if surface.colour.named and len(nm) > 1:
+        lost += (f"{', '.join(surface.channels)} stand at {', '.join(f'{each:g}' for each in nm)} nm, so that hues are approximate",)
     order = np.argsort(nm)
     table, rms = best_table(surface.spectral, geom, wanted)
     spectra, nm = table.spectra[:, order], nm[order]

@@ -1,0 +1,93 @@
+"""Surfaces to export: one of each law, five described materials, and seeded random ones."""
+
+import numpy as np
+import pytest
+
+from brdfguide import models
+from brdfguide.exporters._base import Surface
+from brdfguide.geometry import Geometry, rows
+
+RGB_UM = np.array([0.65, 0.55, 0.45])
+BANDS = np.arange(0.40, 0.701, 0.05)
+LOBES = ("phong", "phong-lewis", "blinn", "ward", "ward-gmd", "lafortune", "cook-torrance", "beckmann", "ggx", "he-torrance", "mirror")
+BODIES = ("lambertian", "coupled", "oren-nayar")
+
+
+def surface(expression, **values) -> Surface:
+    """Grey, with `ggx__alpha=0.2` for ggx.alpha."""
+    return Surface(models.get(expression), {_key(key): value for key, value in values.items()})
+
+
+def _key(name: str) -> str:
+    law, _, parameter = name.partition("__")
+    return f"{law.replace('_', '-')}.{parameter}"
+
+
+def coloured(expression, **values) -> Surface:
+    """The same in red, green and blue."""
+    made = surface(expression, **{key: np.array(value) if isinstance(value, list) else value for key, value in values.items()})
+    return Surface(made.model, made.values, ("R", "G", "B"), RGB_UM, "coloured")
+
+
+EVERY_LAW = {
+    "lambertian": coloured("lambertian", lambertian__albedo=[0.1, 0.4, 0.8]),
+    "coupled": surface("coupled", coupled__albedo=0.4),
+    "oren-nayar": surface("oren-nayar", oren_nayar__albedo=0.6),
+    "phong": surface("lambertian+phong", lambertian__albedo=0.2, phong__exponent=120.0),
+    "phong-lewis": surface("lambertian+phong-lewis", lambertian__albedo=0.3, phong_lewis__exponent=40.0),
+    "blinn": surface("lambertian+blinn", lambertian__albedo=0.1),
+    "ward": coloured("lambertian+ward", lambertian__albedo=[0.5, 0.2, 0.1], ward__rho_s=0.06, ward__alpha=0.15),
+    "ward-gmd": coloured("lambertian+ward-gmd", lambertian__albedo=[0.5, 0.2, 0.1], ward_gmd__rho_s=0.06, ward_gmd__alpha=0.15),
+    "lafortune": surface("lambertian+lafortune", lambertian__albedo=0.2, lafortune__tilt=0.9, lafortune__exponent=30.0),
+    "cook-torrance": surface("lambertian+cook-torrance", lambertian__albedo=0.4, cook_torrance__alpha=0.25),
+    "beckmann": coloured("beckmann", beckmann__alpha=0.3, beckmann__n=[1.2, 1.4, 1.8], beckmann__k=[6.0, 5.5, 5.0]),
+    "ggx": coloured("ggx", ggx__alpha=0.2, ggx__n=[1.2, 1.4, 1.8], ggx__k=[6.0, 5.5, 5.0]),
+    "paint": coloured("lambertian+ggx", lambertian__albedo=[0.3, 0.02, 0.01], ggx__alpha=0.08),
+    "he-torrance": surface("lambertian+he-torrance", lambertian__albedo=0.1, he_torrance__sigma=0.6, he_torrance__slope=0.1),
+    "mirror": coloured("mirror", mirror__n=[1.2, 1.4, 1.8], mirror__k=[6.0, 5.5, 5.0]),
+    "polish": surface("lambertian+mirror", lambertian__albedo=0.3, mirror__sigma=0.03),
+}
+MATERIALS = ("porcelain", "brass", "rough-plastic", "satin-chrome", "matt-wall-paint")
+
+
+@pytest.fixture(params=EVERY_LAW)
+def each(request) -> Surface:
+    return EVERY_LAW[request.param]
+
+
+def random_surface(seed: int) -> Surface:
+    """A body, a lobe or both, every parameter anywhere within its bounds, in one, three or seven channels."""
+    rng = np.random.default_rng(seed)
+    lobe, body = rng.choice(LOBES), rng.choice(BODIES)
+    model = models.get(str(rng.choice([lobe, body, f"{body}+{lobe}", f"lambertian+{lobe}"])))
+    count = int(rng.choice([1, 1, 3, 7]))
+    channels = {1: ("brdf",), 3: ("R", "G", "B"), 7: tuple(f"{1e3 * each:.0f}nm" for each in BANDS)}[count]
+    wavelength = {1: np.array([0.55]), 3: RGB_UM, 7: BANDS}[count]
+    values = {}
+    for key, p in model.parameters.items():
+        size = count if p.per_channel and count > 1 else None
+        high = min(p.high, 10.0) if p.name in ("ks", "scale") else p.high
+        if p.log:
+            values[key] = p.origin + np.exp(rng.uniform(np.log(p.low - p.origin), np.log(high - p.origin), size))
+        else:
+            values[key] = rng.uniform(p.low, high, size)
+        values[key] = np.clip(values[key], p.low, p.high)
+    return Surface(model, values, channels, wavelength, f"random {seed}")
+
+
+def directions(count: int = 1000, seed: int = 1, most: float = 80.0) -> Geometry:
+    """Half of them anywhere, half about the mirror direction."""
+    rng = np.random.default_rng(seed)
+    theta_i, theta_r, phi = rng.uniform(0, most, count), rng.uniform(0, most, count), rng.uniform(0, 360, count)
+    near = slice(0, count // 2)
+    theta_r[near] = np.clip(np.abs(theta_i[near] + rng.normal(0, 6, count // 2)), 0, most)
+    phi[near] = 180 + rng.normal(0, 6, count // 2)
+    return rows(Geometry.from_degrees(theta_i, 0.0, theta_r, phi))
+
+
+def vectors(geom: Geometry) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors toward light and detector, (samples, 3)."""
+    phi = np.radians(geom.phi_deg[:, 0])
+    light = np.stack((geom.sin_i[:, 0], np.zeros(len(geom)), geom.cos_i[:, 0]), axis=-1)
+    view = np.stack((geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi), geom.cos_r[:, 0]), axis=-1)
+    return light, view
