@@ -7,6 +7,7 @@ lobe has at 30 degrees, so that a lobe of a hundredth of a degree is seen.
 
 import numpy as np
 
+from ..errors import NoAnswer
 from ..geometry import Geometry, in_plane, rows
 
 # what is below both is not seen beside the highlight, and a logarithm would count it in full
@@ -56,6 +57,8 @@ def chosen(surface, geom: Geometry | None, spectral: bool = False) -> tuple[Geom
         brightest = np.max(np.where(counted[here], rgb[here], 0.0), axis=0)
         counted[here] &= rgb[here] >= np.minimum(FAINTEST * brightest, DARKEST)
     kept = counted.any(axis=1)
+    if not kept.any():
+        raise NoAnswer("the surface reflects nothing in any of the directions that it is judged by; there is nothing to write")
     wanted = np.where(counted[kept], rgb[kept], np.nan)
     return geom[kept], wanted, f"{int(kept.sum())} {words}, brighter than 1e-3 of that incidence's peak or 1e-3/sr"
 

@@ -16,6 +16,7 @@ from ..geometry import Geometry
 from ..models._base import Parameter
 from ._directions import rms_ln
 
+FAR = 1.5  # a second start this much worse than the first is not searched from
 STEP = 1e-6  # of a parameter's scale, for differences
 DARKEST = 1e-13  # of what is wanted: bounds the residual of a law that vanishes, in the search only
 
@@ -51,8 +52,8 @@ def fit(law: Law, wanted: np.ndarray, geom: Geometry, refine: int = 2) -> Refit:
     grey = bool(np.all((wanted == wanted[:, :1]) | ~np.isfinite(wanted)))
     shown = wanted[:, :1] if grey else wanted
     begun = sorted((_start(law, values, shown, geom) for values in _starts(law)), key=lambda each: each[0])
-    best = min((_search(law, values, shown, geom) for _, values in begun[:refine]), key=lambda each: each.rms_ln)
-    return best
+    near = [values for error, values in begun[:refine] if error <= FAR * begun[0][0]]
+    return min((_search(law, values, shown, geom) for values in near), key=lambda each: each.rms_ln)
 
 
 def _starts(law: Law):
@@ -118,7 +119,7 @@ def _search(law: Law, values: dict, wanted, geom) -> Refit:
 
     low, high = _bounds(shared)
     own_low, own_high = _bounds(own)
-    found = levenberg.minimise(residuals, start, own_start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-7, most=60)
+    found = levenberg.minimise(residuals, start, own_start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-6, most=40)
     values = unpack(np.clip(found.shared, low, high), np.clip(found.own, own_low, own_high))
     return Refit(values, rms_ln(law.brdf(geom, **values), wanted))
 

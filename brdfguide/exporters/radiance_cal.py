@@ -6,6 +6,8 @@ handed over as Radiance's own, which is, and so is an ideal mirror, with its ref
 
 from dataclasses import replace
 
+import numpy as np
+
 from ..geometry import Geometry
 from ._base import Export, Exporter, Surface, header, identifier, rgb_numbers
 from ._dialect import SERIES_ARGUMENTS, colours, mirror_colours, needed, prefixed
@@ -55,8 +57,8 @@ COLOURS = ("red", "green", "blue")
 def _without_body(surface: Surface) -> tuple[list[float], Surface]:
     """The Lambertian body's colour and the surface without it."""
     bodies = [term for term in surface.model.terms if term.model.name == "lambertian"]
-    if len(bodies) != 1:
-        return [0.0, 0.0, 0.0], surface
+    if len(bodies) != 1 or np.any(surface.linear(surface.of(bodies[0].label)["albedo"]) > 1):
+        return [0.0, 0.0, 0.0], surface  # a colour brighter than white stays in the function
     label = bodies[0].label
     colour = rgb_numbers(surface.linear(surface.of(label)["albedo"]), 0.0, 1.0, "diffuse")
     rest = replace(surface.model, terms=tuple(term for term in surface.model.terms if term.label != label))
