@@ -32,8 +32,8 @@ def sort_inputs(inputs: list[str]):
     return described, measured
 
 
-def with_measurements(answers, measured, names, scene, pictures, anyway, explain, no_timing, json, quiet) -> None:
-    """Guidelines choose and start, the fit decides, disagreements are shown."""
+def with_measurements(answers, measured, names, scene, pictures, anyway, explain, no_timing, json, quiet, export=lambda fit, data: None) -> None:
+    """Guidelines choose and start, the fit decides, disagreements are shown; `export(fit, data)` gives the error that stopped it, if any."""
     from .. import agreement, verdict
     from .. import recommend as advisor
     from ..compare import compare
@@ -42,7 +42,7 @@ def with_measurements(answers, measured, names, scene, pictures, anyway, explain
     from ._data import read_examined
 
     told = answers[0] if answers else None
-    results, pruned = [], []
+    results, pruned, failed = [], [], []
     for path in measured:
         data = read_examined(path, anyway=anyway)
         judged = verdict.verdict(data)
@@ -56,12 +56,16 @@ def with_measurements(answers, measured, names, scene, pictures, anyway, explain
         differ = agreement.disagreements(told, judged, ranked, data) if told else ()
         fitted = document.fit_document(ranked, data, timing=not no_timing)
         pruned.append(of_ranking(scene, ranked, data, fitted, not no_timing, quiet) if scene else "")
+        failed.append(export(ranked.recommended.fit, data))
         results.append(measured_advice.document(told, judged, differ, fitted, not no_timing))
         if any(pictures):
             show_ranking(*pictures, results[-1], ranked, data, [path])
     if json:
         print_json(results[0] if len(results) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": results})
-        return
-    if told:
-        print(advice.text(told, explain, not no_timing), end="\n\n")
-    print("\n\n".join(f"{measured_advice.text(each)}\n\n{page.ranking_text(each, notes=not quiet)}{scene}" for each, scene in zip(results, pruned)))
+    else:
+        if told:
+            print(advice.text(told, explain, not no_timing), end="\n\n")
+        print("\n\n".join(f"{measured_advice.text(each)}\n\n{page.ranking_text(each, notes=not quiet)}{scene}" for each, scene in zip(results, pruned)))
+    for error in failed:
+        if error:
+            raise error

@@ -38,7 +38,12 @@ def recommend(
         raise InputError("--plot and --report show one answer; give one description, one measurement or one of each")
     answers = [advisor.recommend(each, anyway, names) for each in described]
     if measured:
-        with_measurements(answers, measured, names, scene, (plot, report), anyway, explain, no_timing, json, quiet)
+        if export and len(measured) > 1:
+            raise InputError(f"--export writes one surface, found {len(measured)} measurements")
+        export_fit = lambda fit, data: export_all(  # noqa: E731
+            export, fit.model, fit.values, data.channels, data.geom.wavelength, data.geom, data.name, max_export_error, quiet
+        )
+        with_measurements(answers, measured, names, scene, (plot, report), anyway, explain, no_timing, json, quiet, export_fit)
         return
     documents = [advice.document(each, not no_timing) for each in answers]
     texts = [advice.text(each, explain, not no_timing) for each in answers]
