@@ -27,9 +27,8 @@ from ._shadows import by_shadows, fresnel, height_factor, in_blocks, reduced, sh
 def brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
     """Lobe [1/sr], without the mirror part, in the shape of `geom` and its wavelength."""
     factor, g, y = in_blocks(_parts, geom, sigma, slope, n, k, scale)
-    value = np.exp(ln_series(g, y))
-    value *= factor
-    return value
+    factor *= np.exp(ln_series(g, y))  # the factor has the shape of all: index, amplitude and wavelength
+    return factor
 
 
 def ln_brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:

@@ -89,6 +89,6 @@ MODEL = Model(
         Extreme("at the normal, where the azimuth is undefined", in_plane(0, 0), {"albedo": 1.0, "spread": 0.66}),
         Extreme("both at grazing, where tan β grows without bound", in_plane(89.99, -89.99), {"albedo": 1.0, "spread": 0.66}),
     ),
-    breaks={"energy": "tan β sends more than 1 toward grazing: 1.02 at 89° for albedo 1, spread 0.5"},
+    breaks={"energy": "tan β sends more than 1 beyond 60°: 1.05 at grazing for albedo 1, spread 0.3"},
     source="Oren and Nayar 1994",
 )
