@@ -5,8 +5,8 @@ import numpy as np
 from .measurement import Measurement
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
-SPIKE_DROP = np.log(3.0)  # and stands this far, in ln, above what surrounds it
-STEEPER = 3.0  # and drops this many times as fast as what surrounds it goes on to fall
+# how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
+SPIKE_DROPS = ((np.log(5.0), 3.0), (np.log(100.0), 1.5))
 GRAZING_DEG = 85.0
 
 
@@ -46,7 +46,8 @@ def spikes(measurement: Measurement) -> np.ndarray:
                 continue
             around = level[rows[core : core + 4]]
             drop = level[rows[:core]].min() - around.max()
-            if drop > SPIKE_DROP and drop > STEEPER * (around[:2].mean() - around[2:].mean()):
+            onward = around[:2].mean() - around[2:].mean()
+            if any(drop > least and drop > steeper * onward for least, steeper in SPIKE_DROPS):
                 mask[rows[:core]] = True
                 break
     return mask
