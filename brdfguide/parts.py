@@ -6,6 +6,7 @@ out as a whole. A `Cut` takes one way for each term kept, and is a sum in its ow
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -115,16 +116,18 @@ class Parts:
         """The law of one term without the features in `way`; its parameters are the same."""
         law, mirror = _law(term.model, way), None if MIRROR in way else term.model.mirror
         if WAVELENGTH in way:
-            law, mirror = self._at_one_wavelength(term.model, law), mirror and self._at_one_wavelength(term.model, mirror)
+            one = partial(self._at_one_wavelength, amplitude=term.model.amplitude)
+            law, mirror = one(law), mirror and one(mirror)  # a mirror part is proportional to the amplitude, if there is one
         return replace(term.model, brdf=law, mirror=mirror, gradient=None if way else term.model.gradient, without={})
 
-    def _at_one_wavelength(self, model: Model, law):
-        """`law` at the mean wavelength and with the mean of each shape parameter; amplitudes keep their channels."""
+    def _at_one_wavelength(self, law, amplitude: str | None):
+        """`law` at the mean wavelength and with the mean of each shape parameter; its amplitude keeps its channels."""
         mean = float(np.mean(self.wavelength))
 
         def single(geom: Geometry, **values):
-            shape = {name: value if name == model.amplitude else np.mean(value) for name, value in values.items()}
-            return law(geom.at(mean), **shape)
+            own = values.pop(amplitude, 1.0)
+            unit = {} if amplitude is None else {amplitude: 1.0}
+            return own * law(geom.at(mean), **{name: np.mean(value) for name, value in values.items()}, **unit)
 
         return single
 

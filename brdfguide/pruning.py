@@ -93,10 +93,9 @@ def prune(
     width = lobe_width(sum_, values, parts.wavelength)
     draw = lambda scene_, size, seed_: _picture(parts, scene_, size, seed_, width)  # noqa: E731
     progress("drawing the scene")
-    works = search.works(draw(scene, FIRST_PIXELS, seed))
-    picture, singles, convergence = _converged(draw, scene, seed, sum(works.values()))
+    picture, singles, convergence = _converged(draw, scene, seed)
     progress("leaving parts out")
-    cuts = search.cuts(picture, works)
+    cuts = search.cuts(picture)
     candidates = [*cuts.values(), *search.near_misses(picture, cuts.values())]
     if other_laws:
         progress("trying simpler laws")
@@ -138,13 +137,14 @@ def _picture(parts: Parts, scene: Scene, size: int, seed: int, width: float) -> 
     return picture
 
 
-def _converged(draw, scene: Scene, seed: int, work: float):
+def _converged(draw, scene: Scene, seed: int):
     """The picture with enough pixels: doubling them no longer changes what decides by a quarter of the tolerance."""
     least = 0.25 * max(min(scene.tolerance.worst, scene.tolerance.p95), 0.04)
     most = 4 * max(scene.tolerance.worst, 0.25)  # beyond, an error decides nothing by its size
     size, before = FIRST_PIXELS, None
     while True:
         picture = draw(scene, size, seed)
+        work = search.work_of_ways(picture) if before is None else work
         singles = _singles(picture)
         now = np.array([min(value, most) for errors in singles.values() for value in (errors.visible, errors.p95)])
         change = np.inf if before is None else float(np.max(np.abs(now - before), initial=0.0))

@@ -15,7 +15,7 @@ from .parts import MIRROR, NOTHING, Cut, Part, Parts
 from .picture import Errors, Picture
 
 MOST_CUTS = 256  # tried one by one; with more, parts are left out greedily
-COUNTED = 128  # directions to count operations on
+COUNTED = 64  # directions to count operations on
 NEAR_MISS = 6.0  # times the tolerance: worth refitting the shapes too
 MOST_NEAR_MISSES = 3
 
@@ -60,14 +60,13 @@ def is_out(part: Part, cut: Cut) -> bool:
 # --- candidates -------------------------------------------------------------------------------------
 
 
-def cuts(picture: Picture, works: Mapping) -> dict[Cut, Candidate]:
+def cuts(picture: Picture) -> dict[Cut, Candidate]:
     """All cuts judged; where there are too many, those on the way down from the whole."""
 
     def judged(cut: Cut) -> Candidate:
         factors = picture.refitted(cut)
-        kept = [term.label for term in picture.parts.sum.terms if cut.keeps(term.label)]
-        work = sum(works[label, cut.way(label)] for label in kept) + len(kept) - 1
-        return Candidate(cut, picture.parts.pruned(cut), picture.values(cut, factors), picture.cut_errors(cut, factors), work)
+        sum_, values = picture.parts.pruned(cut), picture.values(cut, factors)
+        return Candidate(cut, sum_, values, picture.cut_errors(cut, factors), work(picture, sum_, values))
 
     every = picture.parts.cuts()
     if len(every) <= MOST_CUTS:
@@ -89,7 +88,7 @@ def near_misses(picture: Picture, candidates) -> list[Candidate]:
     enough = cheapest(picture, candidates)
     near = [each for each in candidates if each.work < enough.work and each.errors.within(picture.tolerance, NEAR_MISS)]
     best = sorted(near, key=lambda each: each.errors.visible)[:MOST_NEAR_MISSES]
-    return [judged(picture, each.cut, each.sum, stand_ins.reshaped(picture, each.sum, each.values), each.work) for each in best]
+    return [judged(picture, each.cut, each.sum, stand_ins.reshaped(picture, each.sum, each.values)) for each in best]
 
 
 def other_laws(picture: Picture, candidates) -> list[Candidate]:
@@ -98,15 +97,14 @@ def other_laws(picture: Picture, candidates) -> list[Candidate]:
     lobes = [Part(term.label) for term in picture.parts.sum.terms if term.model.roles != ("subsurface",)]
     cut, found = reduce(Cut.without, lobes, enough.cut), []
     for sum_, start in stand_ins.of(enough.sum, enough.values, picture.quadrature.width, picture.parts.wavelength):
-        work = costs.work(costs.operations(law(sum_, start), rows(picture)[:COUNTED]))
-        if work < 0.9 * enough.work:
-            found.append(replace(judged(picture, cut, sum_, stand_ins.reshaped(picture, sum_, start), work), stand_in=True))
+        if work(picture, sum_, start) < 0.9 * enough.work:
+            found.append(replace(judged(picture, cut, sum_, stand_ins.reshaped(picture, sum_, start)), stand_in=True))
     return found
 
 
-def judged(picture: Picture, cut: Cut, sum_: Sum, values: Mapping, work: float) -> Candidate:
+def judged(picture: Picture, cut: Cut, sum_: Sum, values: Mapping) -> Candidate:
     """A candidate evaluated as a whole."""
-    return Candidate(cut, sum_, values, picture.errors(picture.radiance(sum_, values)), work)
+    return Candidate(cut, sum_, values, picture.errors(picture.radiance(sum_, values)), work(picture, sum_, values))
 
 
 def cheapest(picture: Picture, candidates) -> Candidate:
@@ -128,10 +126,16 @@ def front(candidates) -> tuple[Candidate, ...]:
 # --- cost -------------------------------------------------------------------------------------------
 
 
-def works(picture: Picture) -> dict:
-    """Operations of every way to keep every term."""
-    ways = [(term.label, way) for term in picture.parts.sum.terms for way in picture.parts.ways(term)]
-    return {each: costs.work(costs.operations(_way_law(picture.parts, *each), rows(picture)[:COUNTED])) for each in ways}
+def work(picture: Picture, sum_: Sum, values: Mapping) -> float:
+    """Operations per direction of a sum, in additions."""
+    return costs.work(costs.operations(law(sum_, values), rows(picture)[:COUNTED]))
+
+
+def work_of_ways(picture: Picture) -> float:
+    """Operations per direction of keeping every term in every way: what judging a picture costs."""
+    parts = picture.parts
+    laws = (_way_law(parts, term.label, way) for term in parts.sum.terms for way in parts.ways(term))
+    return sum(costs.work(costs.operations(each, rows(picture)[:COUNTED])) for each in laws)
 
 
 def times(picture: Picture, singles, shown) -> tuple[dict[Part, Saving], tuple[Candidate, ...]]:

@@ -33,6 +33,8 @@ def of(whole: Sum, values: Mapping, width: float, wavelength) -> list[tuple[Sum,
     index = {name: value for term in lobes for name, value in _of(whole, values, term).items() if name in ("n", "k")}
     found = []
     for name in LAWS:
+        if [term.model.name for term in lobes] == [name]:
+            continue
         lobe = models.term(name)
         start = {"alpha": alpha, "exponent": max((2 / alpha**2 - 2) / (4 if name.startswith("phong") else 1), 1.0), **index}
         sum_ = Sum("+".join([*(term.model.name for term in bodies), name]), (*bodies, Term(name, lobe)))
