@@ -223,7 +223,7 @@ def search(model: Sum, data: Data, options: Options) -> Search:
     for start in starts.grid_starts(narrow, data.search):
         end = _descend(narrow, data.search, scale, data.search_weights, narrow.encode(start), 1e-5)
         evaluations += end.evaluations
-        ends.append((end.shared, end.own, float(np.sqrt(end.cost / max(np.count_nonzero(data.search.usable), 1)))))
+        ends.append((*narrow.in_order(end.shared, end.own), float(np.sqrt(end.cost / max(np.count_nonzero(data.search.usable), 1)))))
     return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
 
 

@@ -86,6 +86,26 @@ class Layout:
         ends = [(to_coordinate(self.parameters[key], self.parameters[key].low), to_coordinate(self.parameters[key], self.parameters[key].high)) for key in keys]
         return np.array([low for low, _ in ends]), np.array([high for _, high in ends])
 
+    @cached_property
+    def alike(self) -> list[list[str]]:
+        """Groups of labels that stand for the same law: lobes that may be exchanged."""
+        groups: dict[int, list[str]] = {}
+        for term in self.model.terms:
+            groups.setdefault(id(term.model), []).append(term.label)
+        return [labels for labels in groups.values() if len(labels) > 1]
+
+    def in_order(self, shared, own) -> tuple[np.ndarray, np.ndarray]:
+        """The same surface with lobes of one kind in ascending order of their first shape, so that two fits compare."""
+        shared, own = shared.copy(), own.copy()
+        for labels in self.alike:
+            for keys, block in ((self.shared, shared), (self.own, own.T)):
+                names = [key.removeprefix(labels[0] + ".") for key in keys if key.startswith(labels[0] + ".")]
+                places = np.array([[keys.index(f"{label}.{name}") for name in names] for label in labels], int)
+                if keys is self.shared:
+                    order = np.argsort(shared[places[:, 0]], kind="stable") if names else np.arange(len(labels))
+                block[places] = block[places[order]].copy()
+        return shared, own
+
     def encode(self, values: Mapping) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates (p,) and (channels, q) of `values`; what is not given keeps its default."""
         values = {**self.model.defaults(), **values}

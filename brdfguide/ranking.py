@@ -60,7 +60,8 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     compared = measurement if len(part) == len(measurement.brdf) else measurement[part]
     residuals = [fit.residuals[part] for fit in fits]
     errors = [{**all_errors(each, compared), "ln": fit.rms_ln} for each, fit in zip(residuals, fits)]
-    order = sorted(range(len(fits)), key=lambda place: (not np.isfinite(errors[place][metric]), errors[place][metric]))
+    # errors alike to five digits are alike, and the simpler comes first
+    order = sorted(range(len(fits)), key=lambda i: (not np.isfinite(errors[i][metric]), float(f"{errors[i][metric]:.5g}"), fits[i].free))
     best = residuals[order[0]]
     noise = noise_of(best, compared)
     segments, bins = segments_of(compared), incidence_bins(measurement)
@@ -78,7 +79,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
         ))  # fmt: skip
     rows = _with_ranks(rows)
     recommended, because = recommend(rows)
-    winners = {name: fits[min(range(len(fits)), key=lambda i: (np.isnan(errors[i][name]), errors[i][name]))].name for name in METRICS}
+    winners = {name: fits[_winner(name, fits, errors)].name for name in METRICS}
     return Ranking(tuple(rows), recommended, because, metric, noise, winners, _overall(rows, winners, noise))
 
 
@@ -177,6 +178,13 @@ def time_all(fits: Sequence[Fit], measurement: Measurement) -> list[float]:
 
 def _dominates(error, time, other_error, other_time, metric: str) -> bool:
     return error[metric] <= other_error[metric] and time <= other_time and (error[metric] < other_error[metric] or time < other_time)
+
+
+def _winner(metric: str, fits, errors) -> int:
+    """The least error on a scale; the simplest of those that come within a thousandth of it."""
+    known = [place for place in range(len(fits)) if np.isfinite(errors[place][metric])] or list(range(len(fits)))
+    least = min(errors[place][metric] for place in known)
+    return min((place for place in known if not errors[place][metric] > 1.001 * least), key=lambda place: fits[place].free)
 
 
 def _with_ranks(rows: list[Row]) -> list[Row]:

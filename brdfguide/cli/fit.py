@@ -49,13 +49,12 @@ def fit(
     no_timing: NoTimingOption = False,
 ) -> None:
     """Fit the candidate models to DATA and rank them, best first."""
-    from .. import recommend
+    from .. import recommend, verdict
     from ..compare import compare
     from ..report import document, ranking
 
     options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
     names = expressions(models)
-    candidates = recommend.candidates(kind, names)
     reading = (columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max)
     if len(data) > 1 or out:
         from ..batch import Job
@@ -63,9 +62,11 @@ def fit(
 
         fit_many(data, Job(options, kind, names, reading_options(*reading), anyway), out, jobs, json, quiet)
     measurement = read_examined(data[0], *reading, anyway=anyway, aperture_deg=aperture_deg)
+    judged = verdict.verdict(measurement)
+    candidates = recommend.candidates(kind or (judged.kind if judged.kind in recommend.KINDS else None), names)
     with progress(3 * len(candidates), quiet) as tell:
         ranked = compare(measurement, candidates, options, tell)
-    result = document.fit_document(ranked, measurement, timing=not no_timing)
+    result = document.fit_document(ranked, measurement, judged, timing=not no_timing)
     in_scene = of_ranking(scene, ranked, measurement, result, not no_timing, quiet) if scene else ""
     if residuals:
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))

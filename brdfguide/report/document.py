@@ -6,14 +6,16 @@ from ..fitting import Fit
 from ..measurement import Finding, Measurement
 from ..ranking import Ranking, Row
 from .data import data_block, finding
+from ..verdict import Verdict
 from .plain import plain
 
 
-def fit_document(ranking: Ranking, measurement: Measurement, *, timing: bool = True) -> dict:
+def fit_document(ranking: Ranking, measurement: Measurement, judged: Verdict | None = None, *, timing: bool = True) -> dict:
     """`brdfguide fit --json` (CLI contract)."""
     return plain({
         "schema": "brdfguide/fit/1",
         "data": data_block(measurement),
+        "kind": {"verdict": judged.kind, "evidence": list(judged.evidence), "numbers": dict(judged.numbers)} if judged else None,
         "metric": ranking.metric,
         "noise_rms_ln": _round(ranking.noise),
         "ranking": [_row(row, measurement, timing) for row in ranking.rows],

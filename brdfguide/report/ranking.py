@@ -7,7 +7,7 @@ from .table import columns
 
 def ranking_text(document: dict, *, notes: bool = True) -> str:
     """The whole answer in plain text: data, table, recommendation, doubts."""
-    parts = [heading(document["data"]), table(document["ranking"]), recommendation(document)]
+    parts = [heading(document["data"]) + kind_line(document.get("kind")), table(document["ranking"]), recommendation(document)]
     if notes:
         parts += [paragraph for paragraph in (doubts(document), data_notes(document["data"])) if paragraph]
     return "\n\n".join(parts)
@@ -19,6 +19,11 @@ def heading(data: dict) -> str:
     channels = f"{len(data['channels'])} channels" if len(data["channels"]) > 1 else f"{data['wavelength_nm'][0]:g} nm"
     missing = f", {data['missing']} of {data['values']} values missing" if data["missing"] else ""
     return f"{data['file']}: {data['samples']} directions {plane}, {channels}, theta_i {low:g}..{high:g} deg{missing}"
+
+
+def kind_line(kind: dict | None) -> str:
+    """Metal or dielectric, where the data decide it."""
+    return f"\n{kind['verdict']}: {'; '.join(kind['evidence'])}" if kind and kind["verdict"] in ("metal", "dielectric") else ""
 
 
 def table(rows: list[dict]) -> str:
