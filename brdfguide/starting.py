@@ -7,7 +7,7 @@ n_half = 2/alpha² - 2, n_mirror = n_half/4.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan, cos, pi, radians, sin, sqrt, tan
+from math import atan, pi, sqrt
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from .material import Material
 from .models import Sum
 
 FLAKE_ALPHA, FLAKE_SHARE = 0.2, 0.2  # silver metallic paint fitted by Ward's law: 0.185 and 0.225 (Ngan et al. 2005)
+MIRROR_DEG = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0)  # where a Lafortune lobe is made to follow facets
 COAT_N = 1.5  # the usual dielectric (Westin et al. 2004, section 5.1)
 BARE_SIGMA_UM = 0.6  # g = 190 at 550 nm, where only the slope shows; for a He-Torrance lobe of unknown sigma
 MIRROR_SIGMA_UM = 0.03  # for a high gloss of unknown sigma: 37 % of the mirror image is lost at normal incidence, none at grazing
@@ -56,9 +57,9 @@ def start_values(model: Sum, material: Material) -> dict:
         if term.model.name == "mirror" and (flakes or coat_over_metal):
             own = {"n": (material.n or (COAT_N,)) if flakes else (COAT_N,), "k": (0.0,), "sigma": material.sigma or 0.0}
         elif flakes and "n" not in term.model.defaults():
-            own = _lobe(FLAKE_ALPHA, material.albedo or (FLAKE_SHARE,), 0.0)
+            own = _lobe(FLAKE_ALPHA, material.albedo or (FLAKE_SHARE,), (1.0,) * len(MIRROR_DEG))
         else:
-            own = _lobe(_width(material), reflectance(material), rise_of_fresnel(material))
+            own = _lobe(_width(material), reflectance(material), mirror_growth(material))
             own |= {"albedo": material.albedo or (0.18,), "spread": min(atan((material.alpha or 0.5) / sqrt(2)), 1.2)}
             own |= {"n": material.n or (1.5,), "k": material.k or (0.0,), "sigma": _sigma(term.model.name, material), "slope": material.slope or 0.075}
             if open_metal(model, material):
@@ -95,46 +96,45 @@ def reflectance(material: Material) -> tuple[float, ...]:
     return tuple(float(each) for each in np.atleast_1d(optics.f0(np.array(material.n), np.array(material.k or (0.0,)))))
 
 
-def rise_of_fresnel(material: Material) -> float:
-    """F at 75° over F at 10°, of the middle channel."""
+def mirror_growth(material: Material) -> tuple[float, ...]:
+    """What facets reflect at the mirror directions MIRROR_DEG over what they do at the normal: F/(F0 cos²), of the middle channel."""
     n, k = (material.n or (1.5,)), (material.k or (0.0,))
-    return _fresnel_75_over_10(n[len(n) // 2], k[len(k) // 2])
+    n, k = n[len(n) // 2], k[len(k) // 2]
+    return _facet_growth(n if k else max(n, 1.001), k)
 
 
 @lru_cache(maxsize=256)
-def _fresnel_75_over_10(n: float, k: float) -> float:
-    low, high = optics.fresnel(np.cos(np.radians([10.0, 75.0])), n, k)
-    return float(high / low) if low > 0 else 1.0
+def _facet_growth(n: float, k: float) -> tuple[float, ...]:
+    c = np.cos(np.radians(MIRROR_DEG))
+    return tuple(float(each) for each in optics.fresnel(c, n, k) / float(optics.f0(n, k)) / c**2)
 
 
-def _lobe(alpha: float, f0, rise: float) -> dict:
+def _lobe(alpha: float, f0, growth: tuple[float, ...]) -> dict:
     """Widths and heights of one lobe in each law's own words."""
     half = max(2 / alpha**2 - 2, 0.4)
     mirror_exponent = max(half / 4, 0.3)
-    growth = 14.5 * rise if rise else 1.0  # facets grow as 1/cos² at the mirror, times Fresnel; flakes under a coat not at all
-    tilt = _tilt(growth, mirror_exponent)
+    tilt, height = _lafortune(growth, mirror_exponent)
     peak = tuple(each / (4 * pi * alpha**2) for each in f0)
-    at_normal = min(1.0, 1 / tan(tilt)) ** mirror_exponent  # of a Lafortune lobe's greatest value
     return {
         "alpha": alpha,
         "rho_s": tuple(min(each, 1.0) for each in f0),
         "phong_ks": peak,
-        "lafortune_ks": tuple(each / at_normal for each in peak),
+        "lafortune_ks": tuple(each * height for each in peak),
         "half_exponent": half,
         "mirror_exponent": mirror_exponent,
         "tilt": tilt,
     }
 
 
-def _tilt(growth: float, exponent: float) -> float:
-    """The tilt of a Lafortune lobe whose mirror value grows so much from 10 to 75 degrees: one equation in tan(tilt)."""
-    root = growth ** (1 / exponent)
-    (c1, s1), (c2, s2) = ((cos(radians(a)) ** 2, sin(radians(a)) ** 2) for a in (10, 75))
-    # (s2 t + c2)/(s1 t + c1) = root, t = tan(tilt)
-    below = s2 - root * s1
-    if below <= 0:
-        return radians(80)
-    return min(max(atan((root * c1 - c2) / below), radians(30)), radians(80))
+@lru_cache(maxsize=256)
+def _lafortune(growth: tuple[float, ...], exponent: float) -> tuple[float, float]:
+    """(tilt, ks over the peak at the normal) of the one lobe whose mirror values follow `growth` best in ln."""
+    c2 = np.cos(np.radians(MIRROR_DEG)) ** 2
+    tilt = np.radians(np.linspace(45.0, 85.0, 161))[:, None]
+    ln_lobe = exponent * np.log(1 - c2 + c2 / np.tan(tilt))
+    miss = np.log(growth) - ln_lobe
+    best = int(np.argmin(np.var(miss, axis=1)))
+    return float(tilt[best, 0]), float(np.exp(miss[best].mean()))
 
 
 def _sigma(name: str, material: Material) -> float:

@@ -175,3 +175,13 @@ def test_no_number_is_infinite_or_nan():
         text = run("recommend", name, "--json").stdout
         assert "NaN" not in text and "Infinity" not in text
         assert np.isfinite(json.loads(text)["candidates"][0]["time_per_sample_ns"])
+
+
+@pytest.mark.parametrize("suffix, begins", [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
+def test_the_candidates_can_be_drawn(tmp_path, suffix, begins):
+    run("recommend", "metallic-paint", "--plot", str(tmp_path / f"it.{suffix}"))
+    assert (tmp_path / f"it.{suffix}").read_bytes().startswith(begins)
+
+
+def test_plot_and_report_say_what_they_want(tmp_path):
+    assert "show one answer" in run("recommend", "brass", "copper", "--plot", str(tmp_path / "it.png"), status=2).stderr

@@ -1,0 +1,60 @@
+"""Start values: the lobes of different laws made from one material are one surface near the normal."""
+
+import numpy as np
+import pytest
+
+from brdfguide import guidelines, models, starting
+from brdfguide.geometry import in_plane
+from brdfguide.material import parse_material
+
+LOBES = ("phong", "blinn", "ward-gmd", "cook-torrance", "beckmann", "ggx", "he-torrance")
+
+
+def started(name: str, text: str):
+    filled = guidelines.consult(parse_material(text)).material
+    model = models.get(name)
+    return model, starting.start_values(model, filled), filled
+
+
+@pytest.mark.parametrize("name", LOBES)
+def test_every_law_starts_from_the_same_peak(name):
+    model, values, filled = started(name, "composition: aluminium\nhighlight_width_deg: 19.03\nfinish: low gloss")
+    assert filled.alpha == pytest.approx(0.1, rel=1e-3)
+    peak = 0.92114 / (4 * np.pi * 0.1**2)
+    assert float(np.squeeze(model(in_plane(5, 5), values))) == pytest.approx(peak, rel=0.04)
+
+
+@pytest.mark.parametrize("name", ("phong", "blinn", "ward-gmd", "beckmann"))
+def test_every_gaussian_law_starts_with_the_width_that_was_seen(name):
+    model, values, _ = started(name, "composition: aluminium\nhighlight_width_deg: 19.03")
+    peak, half = (float(np.squeeze(model(in_plane(2, 2 + off), values))) for off in (0, 19.03 / 2))
+    assert half / peak == pytest.approx(0.5, abs=0.04)
+
+
+def test_ward_keeps_its_factor_of_the_root_of_the_cosines():
+    model, values, _ = started("ward", "composition: aluminium\nhighlight_width_deg: 19.03")
+    assert values["ward.rho_s"] == pytest.approx(0.92114, abs=1e-4)
+    assert float(np.squeeze(model(in_plane(0, 0), values))) == pytest.approx(0.92114 / (4 * np.pi * 0.01), rel=1e-3)
+
+
+def test_a_lafortune_lobe_follows_the_facets_it_stands_for_within_a_factor_of_four():
+    text = "kind: dielectric\nappearance: black\nhighlight_width_deg: 37"
+    (one, a, _), (other, b, _) = started("lafortune", text), started("beckmann", text)
+    for theta in (5, 20, 40, 60, 75):
+        ratio = float(np.squeeze(one(in_plane(theta, theta), a))) / float(np.squeeze(other(in_plane(theta, theta), b)))
+        assert 1 / 4 < ratio < 4
+
+
+def test_start_values_lie_inside_the_bounds_of_their_laws():
+    for text in ("composition: silver\nfinish: mirror", "kind: metal\nf0: 0.9999\nfinish: matt", "appearance: metallic flake", "kind: dielectric\nf0: 0", "finish: satin"):
+        for name in ("lambertian+ggx", "phong+mirror", "lafortune", "blinn", "phong-lewis", "ward", "he-torrance", "oren-nayar+ggx", "cook-torrance", "mirror"):
+            model, values, _ = started(name, text)
+            for key, value in values.items():
+                bound = model.parameters[key]
+                assert np.all((np.atleast_1d(value) >= bound.least) & (np.atleast_1d(value) <= bound.high)), (text, key)
+            starting.rise(model, values)
+
+
+def test_an_index_below_1_survives_as_a_start_value():
+    _, values, _ = started("ggx", "composition: silver\nfinish: satin")
+    assert (values["ggx.n"], values["ggx.k"]) == (0.12, 3.45)
