@@ -217,7 +217,9 @@ def rendered(cases):
         yield [surface] + [f"{light[0][m].mean() / light[1][m].mean():.2f}" for m in (sphere & (theta >= a) & (theta < b) for a, b in ((0, 20), (20, 40), (40, 60), (60, 75), (75, 85)))]
 
 
-def main() -> None:
+def main(seeds: int = len(SEEDS)) -> None:
+    global SEEDS
+    SEEDS = tuple(range(1, seeds + 1))
     cases = {(name, variant, seed): Case(name, variant, seed) for name, (_, variants, _) in SURFACES.items() for variant in variants for seed in SEEDS}
     print("# The guide's findings on synthetic stand-ins\n")
     print("Made by `python examples/study.py`; do not edit. Nothing here was measured on real aluminium, plastic, paper, steel or paint: the")
@@ -230,7 +232,7 @@ def main() -> None:
     print(table(("id", "the guide says", "here"), found))
     count = lambda word: sum(each[2].startswith(word) for each in found)  # noqa: E731
     print(f"\n{count('re-emerges')} of {len(found)} re-emerge, {count('does not')} do not, {count('depends')} depend on variant or noise.\n")
-    print("## Errors, rms ln: median over five seeds (at fitted angles / at 30, 60, 80°)\n")
+    print("## Errors, rms ln: median over the seeds (at fitted angles / at 30, 60, 80°)\n")
     names = FOUR + MORE + ("he-torrance, scale free",)
     lines = []
     for name, (_, variants, _) in SURFACES.items():
@@ -254,4 +256,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(*map(int, sys.argv[1:]))

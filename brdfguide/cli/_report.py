@@ -44,6 +44,16 @@ def show_answer(plot, report, document: dict, answer, files) -> None:
         page.write(document, report, figures, command_line(), files)
 
 
+def sketch_of(ranked, measurement) -> str:
+    """The recommended model against the data, in braille, as wide as the terminal."""
+    from shutil import get_terminal_size
+
+    from ..report import lines, sketch
+
+    pick = next(line for line in lines.lines_of(ranked) if line.recommended)
+    return sketch.lobes(pick, measurement, get_terminal_size().columns)
+
+
 def _drawn(ranked, measurement) -> list:
     """The recommended model, and the worst of those that the figure shows, with the channels they were fitted to."""
     from ..report import plot as drawing

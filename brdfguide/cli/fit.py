@@ -7,8 +7,8 @@ from typer import Argument, Option
 
 from ._data import AnywayOption, ApertureOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
-from ._options import JsonOption, NoTimingOption, QuietOption, print_json, progress, write_whole
-from ._report import PlotOption, ReportOption, show_ranking
+from ._options import JsonOption, NoTimingOption, QuietOption, on_terminal, print_json, progress, write_whole
+from ._report import PlotOption, ReportOption, show_ranking, sketch_of
 from ._scene import SceneOption, of_ranking
 from ._surface import ExportOption, MaxErrorOption, export_all
 
@@ -75,5 +75,7 @@ def fit(
     best = ranked.recommended.fit
     failed = export_all(export, best.model, best.values, measurement.channels, measurement.geom.wavelength, measurement.geom, data[0].stem, max_export_error, quiet)
     print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet) + in_scene)
+    if not json and on_terminal():
+        print("\n" + sketch_of(ranked, measurement))
     if failed:
         raise failed

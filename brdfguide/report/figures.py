@@ -11,7 +11,7 @@ import numpy as np
 from .. import fitting, models, optics, predict, substances
 from ..geometry import in_plane, rows
 from ..measurement import Measurement
-from . import plot, style
+from . import emergence, emergence_plot, plot, style
 
 OURS = "computed by brdfguide"
 DIELECTRICS = ("water", "acrylic", "window glass", "diamond")
@@ -137,12 +137,24 @@ def normal_reflectance():
     return fig
 
 
+def _emergence(origin: str):
+    """Figure 14, with the report's worked example where the criterion puts it: on the contour of 75 degrees."""
+    from . import emergence, emergence_plot
+
+    fig = emergence_plot.figure14(emergence.document(angle=75.0, slope=0.1))
+    key = fig.get_supxlabel()
+    style.origin(fig, f"{key}\n{origin}; the point: the guide's worked example, which its text puts on the contour of 80°")
+    return fig
+
+
 def draw(number: int, measurement: Measurement | None = None, origin: str = ""):
     """One figure; those of samples need their measurement, and where it comes from."""
     origin = f"after Figure {number} of the guide; {origin or OURS}"
     with style.look():
         if number in (4, 5, 7, 11):
             return four_models(measurement, number, origin)
+        if number == 14:
+            return _emergence(origin)
         fig = {1: fresnel, 2: effective_roughness, 9: lambda: steel(measurement, origin), 13: normal_reflectance}[number]()
         fig.suptitle(TITLES[number], fontsize=9, x=0.01, ha="left")
         return fig
