@@ -260,5 +260,6 @@ def _disagreement(layout: Layout, ends) -> Finding | None:
     if np.max(np.abs(best - other), initial=0.0) < 0.1 or worse > 1.02 * error + 1e-6:
         return None
     own = np.zeros((layout.channels, len(layout.own)))
-    places = [", ".join(f"{key} {layout.decode(shared, own)[key]:.3g}" for key in layout.shared) for shared in (best, other)]
+    shown = lambda key, shared: layout.parameters[key].outside(layout.decode(shared, own)[key])  # noqa: E731
+    places = [", ".join(f"{key} {shown(key, shared):.3g}" for key in layout.shared) for shared in (best, other)]
     return Finding("starts-disagree", f"two starts ended equally well in different places: {places[0]}; or {places[1]}", "warning", "look at both")

@@ -56,7 +56,8 @@ def _row(row: dict, document: dict) -> Saved:
     values = {}
     for key, entry in row["parameters"].items():
         if key in sum_.parameters:
-            values[key] = np.array(entry["value"], float) if isinstance(entry["value"], list) else float(entry["value"])
+            value = np.array(entry["value"], float) if isinstance(entry["value"], list) else float(entry["value"])
+            values[key] = sum_.parameters[key].inside(value)
     data = document.get("data", {})
     channels = tuple(data.get("channels", ["brdf"]))
     wavelength = np.array(data.get("wavelength_nm", [WAVELENGTH_UM * 1e3]), float) * 1e-3

@@ -87,7 +87,7 @@ def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[
         for end, bound in (("low", parameter.low), ("high", parameter.high)):
             at = np.abs(value - bound) <= 1e-9 * abs(bound)
             if np.any(at) and not (parameter.linear and end == "low"):
-                found.append(Finding(f"at-bound:{key}", f"{key} ended at its {end} bound {bound:g}", "warning", "its true value may lie beyond"))
+                found.append(Finding(f"at-bound:{key}", f"{key} ended at its {end} bound {parameter.outside(bound):.4g}", "warning", "its true value may lie beyond"))
             elif np.all(at):
                 found.append(Finding(f"unused:{key}", f"{key} is 0: the term is not needed", "note", "leave it out"))
         away = np.abs(value - parameter.origin) if parameter.log else np.maximum(np.abs(value), 1e-3 * span)

@@ -37,6 +37,20 @@ class Parameter:
         return self.low if self.given_low is None else self.given_low
 
 
+    @property
+    def outside_unit(self) -> str:
+        """Its unit where people read it: angles are degrees there."""
+        return "deg" if self.unit == "rad" else self.unit
+
+    def outside(self, value):
+        """A value as people read it."""
+        return np.degrees(value) if self.unit == "rad" else value
+
+    def inside(self, value):
+        """A value that people gave, as the law wants it."""
+        return np.radians(value) if self.unit == "rad" else value
+
+
 @dataclass(frozen=True)
 class Derived:
     """A number that follows from the parameters and that people ask for, such as tau = sigma/slope."""
@@ -150,13 +164,16 @@ class Sum:
         return any(name in (key, key.rpartition(".")[2]) for key in self.parameters)
 
     def qualified(self, values: Mapping) -> dict:
-        """`alpha` as `ggx.alpha`: a name without a term belongs to every term that has it. Raises InputError for others."""
+        """What a user gave, as the laws want it: `alpha` as `ggx.alpha`, degrees as radians.
+
+        A name without a term belongs to every term that has it. Raises InputError for others.
+        """
         out = {}
         for name, value in values.items():
             keys = [key for key in self.parameters if name in (key, key.rpartition(".")[2])]
             if not keys:
                 raise choices(f"parameter of {self.name}", name, list(self.parameters))
-            out.update(dict.fromkeys(keys, value))
+            out.update({key: self.parameters[key].inside(value) for key in keys})
         return out
 
     def of_term(self, term: Term, values: Mapping) -> dict:

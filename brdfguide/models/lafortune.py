@@ -80,7 +80,7 @@ MODEL = Model(
     roles=("surface", "subsurface"),
     parameters=(
         Parameter("ks", 0.2, 0.0, 1e6, unit="1/sr", linear=True, per_channel=True, meaning="greatest value of the lobe"),
-        Parameter("tilt", pi / 4, -1.5, 0.9 * pi, unit="rad", meaning="π/4: mirror lobe; more: rises toward grazing; negative: back to the light", starts=(0.1, 0.75, 1.0, -0.75)),
+        Parameter("tilt", pi / 4, -1.5, 0.9 * pi, unit="rad", meaning="45°: mirror lobe; more: rises toward grazing; negative: back to the light", starts=(0.1, 0.75, 1.0, -0.75)),
         Parameter("exponent", 10.0, 0.3, 1e4, log=True, meaning="n: narrowness", starts=(1.0, 4.0, 20.0, 100.0, 600.0, 4000.0)),
     ),
     gradient=gradient,

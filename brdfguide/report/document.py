@@ -60,7 +60,8 @@ def _parameters(fit: Fit) -> dict:
     for key, parameter in fit.model.parameters.items():
         value, stderr = fit.values[key], fit.stderr.get(key)
         ends = [end for end in ("low", "high") if fit.has(f"at-bound:{key}") and _at(parameter, value, end)]
-        out[key] = {"value": value, "stderr": stderr, "unit": parameter.unit, "at_bound": ends[0] if ends else None, "fitted": stderr is not None}
+        shown = parameter.outside(value), None if stderr is None else parameter.outside(stderr)
+        out[key] = {"value": shown[0], "stderr": shown[1], "unit": parameter.outside_unit, "at_bound": ends[0] if ends else None, "fitted": stderr is not None}
     for term in fit.model.terms:
         own = {**term.model.defaults(), **fit.model.of_term(term, fit.values)}
         for derived in term.model.derived:

@@ -27,7 +27,7 @@ def model_entry(model) -> dict:
         "source": model.source,
         "roles": list(model.roles),
         "parameters": [
-            {"name": p.name, "unit": p.unit, "default": p.default, "low": p.low, "high": p.high,
+            {"name": p.name, "unit": p.outside_unit, "default": p.outside(p.default), "low": p.outside(p.low), "high": p.outside(p.high),
              "per_channel": p.per_channel, "meaning": p.meaning}
             for p in model.parameters
         ],
