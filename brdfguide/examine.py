@@ -11,7 +11,7 @@ import numpy as np
 from . import conventions, reciprocity, reflectance, retro, sampling
 from .errors import InputError, NoAnswer
 from .measurement import Finding, Measurement
-from .smoothness import noise, spikes
+from .smoothness import dark_edges, noise, spikes
 
 __all__ = ["corrected", "examine", "noise", "outside", "prepared", "spikes"]
 LARGE = 60_000  # directions beyond which a stratified subset is examined
@@ -28,7 +28,7 @@ def examine(measurement: Measurement) -> tuple[Finding, ...]:
     looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
     spiky = spikes(looked_at)
     found = [_coverage(measurement), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
-    found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_noise(looked_at)]
+    found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_edges(looked_at), *_noise(looked_at)]
     return tuple(found)
 
 
@@ -46,8 +46,12 @@ def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
     beyond = outside(found)
     if beyond and not anyway:
         raise NoAnswer(f"{measurement.name or 'measurement'}: {beyond[0].text}; {beyond[0].consequence}; {beyond[0].option} answers all the same")
-    if measurement.solid_angle is None and not anyway and np.any(spiky := spikes(measurement)):
-        measurement = replace(measurement, brdf=np.where(spiky[:, None], np.nan, measurement.brdf))
+    if not anyway:
+        false = dark_edges(measurement)
+        if measurement.solid_angle is None:  # with it, a mirror term can be compared with a spike
+            false |= spikes(measurement)
+        if np.any(false):
+            measurement = replace(measurement, brdf=np.where(false[:, None], np.nan, measurement.brdf))
     return measurement.noting(*(finding for finding in found if finding.severity != "note"))
 
 
@@ -267,6 +271,13 @@ def _spikes(m: Measurement, spiky):
     if count:
         text = f"{count} samples at the mirror direction stand alone above their surroundings: an ideal mirror seen through the instrument"
         yield Finding("spikes", text, "warning", "their height is the aperture's, not the surface's: left out of fits", "--anyway", (("samples", count),))
+
+
+def _edges(m: Measurement):
+    count = int(np.count_nonzero(dark_edges(m)))
+    if count:
+        text = f"{count} outermost samples of their scans fall below a tenth of their neighbours: cut off by the horizon or the holder"
+        yield Finding("dark-edge", text, "warning", "left out of fits", "--anyway", (("samples", count),))
 
 
 def _noise(m: Measurement):

@@ -8,6 +8,7 @@ SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 # how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
 SPIKE_DROPS = ((np.log(5.0), 3.0), (np.log(100.0), 1.5))
 GRAZING_DEG = 85.0
+EDGE_DEG = 75.0  # beyond this a scan may be cut off
 
 
 def noise(measurement: Measurement) -> float | None:
@@ -50,6 +51,27 @@ def spikes(measurement: Measurement) -> np.ndarray:
             if any(drop > least and drop > steeper * onward for least, steeper in SPIKE_DROPS):
                 mask[rows[:core]] = True
                 break
+    return mask
+
+
+def dark_edges(measurement: Measurement) -> np.ndarray:
+    """(samples,) mask of outermost directions of a scan where the value falls to a tenth within five degrees.
+
+    No surface does that far from its mirror direction; an aperture cut off by the horizon or the holder does.
+    """
+    mask = np.zeros(len(measurement.geom), bool)
+    level = _ln(measurement)
+    counted = np.any(np.isfinite(level), axis=1)
+    level = np.where(counted, np.nanmedian(np.where(counted[:, None], level, 0.0), axis=1), np.nan)
+    distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
+    for rows, angle in _scans(measurement):
+        keep = np.isfinite(level[rows]) & (np.abs(angle) >= EDGE_DEG - 8)
+        for side in (angle > 0, angle < 0):
+            outward = rows[keep & side][np.argsort(np.abs(angle[keep & side]))]
+            steps = np.diff(level[outward]), np.abs(np.diff(measurement.geom.theta_r_deg[outward, 0]))
+            cliff = np.flatnonzero((steps[0] < -np.log(10.0)) & (steps[1] <= 5.5) & (steps[1] > 0))
+            if len(cliff) and np.all(distance[outward[cliff[0] + 1 :]] > 15) and measurement.geom.theta_r_deg[outward[cliff[0] + 1], 0] >= EDGE_DEG:
+                mask[outward[cliff[0] + 1 :]] = True
     return mask
 
 

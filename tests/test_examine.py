@@ -67,6 +67,15 @@ def test_spikes_of_the_real_clearcoat_are_found(data):
     assert not np.any(examine.spikes(formats.read(data / "cornell" / "garnet_red.brdf")))
 
 
+@pytest.mark.parametrize("name", SURFACES)
+def test_scan_cut_off_at_grazing_is_found_and_left_out(name):
+    clean = plane(name)
+    cut = (clean.geom.theta_r_deg[:, 0] > 79) & (clean.geom.mirror_distance2[:, 0] > 0.1)
+    dark = replace(clean, brdf=np.where(cut[:, None], 0.01 * clean.brdf, clean.brdf))
+    assert codes(dark)["dark-edge"].severity == "warning" and "dark-edge" not in codes(clean)
+    np.testing.assert_array_equal(examine.prepared(dark).usable[:, 0], ~cut)
+
+
 def test_retro_lobe_is_outside_the_guide():
     clean = dome("satin plastic")
     source = np.degrees(np.arccos(np.clip(clean.geom.dot_xy + clean.geom.cos_i * clean.geom.cos_r, -1, 1)))
@@ -142,11 +151,11 @@ REAL = {
     "cornell/garnet_red.brdf": {"not-reciprocal"},
     "cornell/cayman.brdf": {"not-reciprocal", "missing-values", "spikes"},
     "nist/PTFE.data.csv": set(),
-    "starlink/chassis_brdf.csv": set(),
+    "starlink/chassis_brdf.csv": {"dark-edge"},
     "starlink/aluminum_brdf.csv": set(),
     "mwir/steel_sandblasted.csv": set(),
     "mwir/copper.csv": set(),
-    "mwir/lacquer_smooth.csv": {"not-reciprocal"},
+    "mwir/lacquer_smooth.csv": {"not-reciprocal", "dark-edge"},
     "rgl/paper_white_rgb.bsdf": set(),
     "zemax/test_13_planesymmetric_brdf_zemax.bsdf": set(),
     "ua_loft/AnoBlackEC1onAlum.txt": {"no-data-beyond-theta-i"},

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from brdfguide import sampling
+from brdfguide import fitting, formats, models, sampling
 from brdfguide.geometry import Geometry, rows
 from brdfguide.measurement import Measurement
 
@@ -43,3 +43,12 @@ def test_weights_become_density():
     assert picked.weights is None
     share = float(np.mean(picked.geom.theta_i_deg > 60))
     assert share == pytest.approx(float(np.sum(weighted.weights[heavy]) / weighted.weights.sum()), abs=0.02)
+
+
+@pytest.mark.parametrize("model", ["lambertian+ggx", "lambertian+ward"])
+def test_a_finer_subset_of_a_whole_table_changes_no_answer_by_more_than_its_uncertainty(data, model):
+    table = formats.read(data / "merl_format" / "alum-bronze.binary.xz", theta_max=80)
+    coarse, fine = (fitting.fit(models.get(model), sampling.subset(table, count)) for count in (2000, 16000))
+    for name, value in coarse.values.items():
+        if name in coarse.stderr:
+            assert np.all(np.abs(value - fine.values[name]) <= coarse.stderr[name]), name

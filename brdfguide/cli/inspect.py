@@ -31,7 +31,7 @@ def inspect(
     measurement = read(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, average_phi_i=average_phi_i)
     found = examine.examine(measurement)
     settled = examine.corrected(measurement, anyway=True)
-    changes = (*settled.findings[len(measurement.findings) :], *(each for each in found if each.code == "spikes"))
+    changes = (*settled.findings[len(measurement.findings) :], *(each for each in found if each.code in ("spikes", "dark-edge")))
     result = inspection.document(measurement, found, changes)
     if plot:
         from ..report import survey

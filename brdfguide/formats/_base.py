@@ -1,5 +1,6 @@
 """What every file in this folder provides: how a kind of file is recognised and how it becomes a Measurement."""
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -116,6 +117,33 @@ def measurement(
     geom = rows(Geometry.from_degrees(theta_i[keep], phi_i[keep], theta_r[keep], phi_r[keep], um))
     stderr = None if stderr is None else np.asarray(stderr, float).reshape(brdf.shape)[keep]
     return Measurement(geom, brdf[keep], tuple(channels), stderr=stderr, name=source.name, format=kind, findings=tuple(notes), **more)
+
+
+WAVE_UNITS = {"nm": 1e-3, "um": 1.0, "µm": 1.0, "micron": 1.0, "microns": 1.0}
+_UNIT = r"(nm|um|µm|microns?)"
+_WAVE = re.compile(rf"(?:wave ?length|lambda|λ)s?[ _]*[\[(]?{_UNIT}?[\])]?\s*(?:[:=]|is|of|at)?\s*(?:lambda)?\s*[:=]?\s*(\d+(?:\.\d+)?)\s*{_UNIT}?\b", re.IGNORECASE)
+_BAND = re.compile(rf"(\d+(?:\.\d+)?)\s*(?:-|–|to|\.\.)\s*(\d+(?:\.\d+)?)\s*{_UNIT}\b", re.IGNORECASE)
+_ALONE = re.compile(r"(?<![\d.])(\d{3,5}(?:\.\d+)?)\s*nm\b", re.IGNORECASE)
+
+
+def wavelength_in(text: str) -> tuple[float, str] | None:
+    """Micrometres out of `wavelength_nm: 633`, `Wavelength (nm) = 550`, `lambda = 532 nm`, `2-5.7 um band` or `650 nm`, and in what words."""
+    for match in _WAVE.finditer(text):
+        if unit := match[3] or match[1]:
+            return float(match[2]) * WAVE_UNITS[unit.lower()], "wavelength"
+    if match := _BAND.search(text):
+        return 0.5 * (float(match[1]) + float(match[2])) * WAVE_UNITS[match[3].lower()], "middle of the band"
+    if match := _ALONE.search(text):
+        return float(match[1]) / 1000, "wavelength"
+    return None
+
+
+def from_comments(text: str):
+    """The wavelength [µm] that free text names, or None, and the notes about it."""
+    found = wavelength_in(text)
+    if found is None:
+        return None, []
+    return found[0], [Finding("wavelength-from-comment", f"{found[1]} {found[0] * 1000:g} nm, from the comments")]
 
 
 def check_zenith(source: Source, name: str, degrees, lines=None) -> None:

@@ -10,7 +10,7 @@ from .. import conventions
 from ..errors import InputError, choices
 from ..measurement import Finding, Measurement
 from . import _columns
-from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, measurement, nominal_colours
+from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, measurement, nominal_colours, wavelength_in
 from ._pivot import pivoted
 from ._sheet import Sheet
 from ._sides import on_its_side
@@ -80,12 +80,8 @@ def _from_comments(comments) -> dict[str, float]:
     text = "\n".join(comments)
     if match := re.search(r"\btheta_?i(?:_deg)?\s*[:=]\s*([-+]?\d+(?:\.\d+)?)\s*(?:deg|°|$)", text, re.IGNORECASE | re.MULTILINE):
         found["theta_i"] = float(match[1])
-    wave = r"(?:wavelength|lambda|λ)(?:_?(nm|um|µm))?\s*(?:[:=]|is|of)?\s*(?:lambda)?\s*[:=]?\s*(\d+(?:\.\d+)?)\s*(nm|um|µm|microns?)?"
-    if (match := re.search(wave, text, re.IGNORECASE)) and (unit := match[3] or match[1]):
-        found["wavelength"] = float(match[2]) * _columns.TO_UM[_columns.UNITS[unit.lower()]]
-    elif match := re.search(r"(\d+(?:\.\d+)?)\s*(?:-|to|\.\.)\s*(\d+(?:\.\d+)?)\s*(nm|um|µm)\b", text, re.IGNORECASE):
-        found["wavelength"] = 0.5 * (float(match[1]) + float(match[2])) * _columns.TO_UM[_columns.UNITS[match[3].lower()]]
-        found["band"] = 1.0
+    if wave := wavelength_in(text):
+        found["wavelength"], found["wavelength said as"] = wave
     return found
 
 
@@ -220,7 +216,7 @@ def _channels(source, table, columns, roles, constants, values, angles, notes):
         return angles, brdf, stderr, channels, np.array([{**RGB_UM, **XYZ_UM}[name] for name in channels])
     um = constants.get("wavelength")
     if um is not None:
-        what = "middle of the band" if "band" in constants else "wavelength"
+        what = constants.get("wavelength said as", "wavelength")
         notes.append(Finding("wavelength-from-comment", f"{what} {um * 1000:g} nm, from the comments", option="--columns wavelength=NM"))
     return angles, brdf, stderr, channels, None if um is None else np.full(len(channels), um)
 

@@ -14,7 +14,7 @@ from .. import conventions
 from ..errors import choices
 from ..geometry import Geometry
 from ..measurement import Finding, Measurement
-from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, measurement, nominal_colours
+from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, from_comments, measurement, nominal_colours
 
 
 def recognises(head: bytes) -> bool:
@@ -40,8 +40,9 @@ def read(source: Source, options: Options) -> Measurement:
         check_zenith(source, each, degrees, lines)
     channels = {3: ("X", "Y", "Z") if quantity == "XYZ_COLOR" else ("R", "G", "B")}.get(outputs, [f"value{k + 1}" for k in range(outputs)])
     channels = ("brdf",) if outputs == 1 else channels
-    um = np.array([{**RGB_UM, **XYZ_UM}[each] for each in channels]) if outputs == 3 else None
-    notes = [nominal_colours(channels)] if outputs == 3 else []
+    um, notes = from_comments("\n".join(line for line in source.lines if line.lstrip().startswith("#")))
+    if outputs == 3:
+        um, notes = np.array([{**RGB_UM, **XYZ_UM}[each] for each in channels]), [nominal_colours(channels)]
     text = f"coordinates {name}, values {quantity}" + (": divided by cos theta_r" if quantity.endswith("COSINE_FACTOR") else "")
     notes.append(Finding("quantity-stated", text, option="--quantity"))
     result = measurement(source, "ALTA text", theta_i, phi_i, theta_r, phi_r, values, channels=channels, wavelength=um, findings=notes)

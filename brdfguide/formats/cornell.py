@@ -16,7 +16,7 @@ CHANNELS = range(1, 4096)
 
 
 def recognises(head: bytes) -> bool:
-    """Nothing but comments and numbers, and the numbers begin with a count and as many rising wavelengths in nm."""
+    """Nothing but comments and numbers, and the numbers begin with a count and as many wavelengths in nm, in order."""
     if b"\0" in head:
         return False
     cut = len(head) == 65536
@@ -27,7 +27,8 @@ def recognises(head: bytes) -> bool:
     if not all(NUMBER.fullmatch(word) for word in start):
         return False
     wavelengths = [float(word) for word in start]
-    return wavelengths[0] >= 100 and all(a < b for a, b in zip(wavelengths, wavelengths[1:]))
+    steps = [b - a for a, b in zip(wavelengths, wavelengths[1:])]
+    return min(wavelengths) >= 100 and (all(step > 0 for step in steps) or all(step < 0 for step in steps))
 
 
 def read(source: Source, options: Options) -> Measurement:
@@ -43,8 +44,8 @@ def read(source: Source, options: Options) -> Measurement:
     except ValueError:
         raise _not_a_number(source) from None
     um, records = numbers[:count] / 1000, numbers[count:]
-    if np.any(~(um > 0)) or np.any(np.diff(um) <= 0):
-        raise source.error("the wavelengths do not rise")
+    if np.any(~(um > 0)) or not (np.all(np.diff(um) > 0) or np.all(np.diff(um) < 0)):
+        raise source.error("the wavelengths do not stand in order")
     if len(records) % width:
         raise source.error(f"truncated: the last record has {len(records) % width} of {width} numbers (4 angles and {count} values)")
     records = records.reshape(-1, width)

@@ -12,7 +12,7 @@ import re
 import numpy as np
 
 from ..measurement import Finding, Measurement
-from ._base import Format, Options, Source, check_zenith, measurement
+from ._base import Format, Options, Source, check_zenith, from_comments, measurement
 
 
 def recognises(head: bytes) -> bool:
@@ -51,7 +51,8 @@ def read(source: Source, options: Options) -> Measurement:
     brdf = table[:, 4:] * scale if values_are == "value" else _powers(table[:, 4:], scale)
     note = Finding("specular-azimuth", "each block names its specular direction: the light comes from the opposite azimuth")
     theta_i, phi_s = np.abs(theta_i), np.where(theta_i < 0, phi_s + 180.0, phi_s)
-    return measurement(source, "FRED text", theta_i, phi_s + 180.0, theta_r, phi_r, brdf, findings=[note])
+    um, named = from_comments("\n".join(line for line in source.lines if line.lstrip().startswith(("#", "!"))))
+    return measurement(source, "FRED text", theta_i, phi_s + 180.0, theta_r, phi_r, brdf, wavelength=um, findings=[note, *named])
 
 
 def _format(source: Source, words, line: int):

@@ -12,7 +12,7 @@ import re
 import numpy as np
 
 from ..measurement import Finding, Measurement
-from ._base import XYZ_UM, Format, Options, Source, check_zenith, measurement, nominal_colours
+from ._base import XYZ_UM, Format, Options, Source, check_zenith, from_comments, measurement, nominal_colours
 
 LISTS = ("SampleRotation", "AngleOfIncidence", "ScatterAzimuth", "ScatterRadial")
 MOST_ANGLES = 100_000
@@ -53,12 +53,11 @@ def read(source: Source, options: Options) -> Measurement:
     if len(rotations) > 1:
         brdf, theta_i, theta_r, phi_r, keep = _averaged(source, options, brdf, theta_i, theta_r, phi_r, keep, len(rotations), notes)
     notes.append(Finding("tis", "total integrated scatter as the file states it", numbers=tuple(_stated_tis(lists["AngleOfIncidence"], tis[0]))))
-    um = None
     if len(channels) == 3:
         um, notes = np.array([XYZ_UM[name] for name in channels]), [*notes, nominal_colours(channels)]
-    elif wave := re.search(r"(\d+(?:\.\d+)?)\s*nm\b", source.text[:4000]):
-        um = float(wave[1]) / 1000
-        notes.append(Finding("wavelength-from-comment", f"wavelength {um * 1000:g} nm, from the comments"))
+    else:
+        um, named = from_comments("\n".join(line for line in source.lines if line.lstrip().startswith("#")))
+        notes += named
     parts = (theta_i[keep], 0.0, theta_r[keep], phi_r[keep], brdf[keep])
     return measurement(source, "Zemax .bsdf", *parts, channels=channels, wavelength=um, findings=notes)
 

@@ -137,6 +137,16 @@ def test_wavelength_and_incidence_out_of_comments(tmp_path):
     assert measurement.geom.wavelength[0] == pytest.approx(0.633)
 
 
+@pytest.mark.parametrize(
+    ("comment", "nm"),
+    [("wavelength_nm: 633", 633), ("Wavelength (nm) = 550.0", 550), ("measured at lambda = 532 nm, 3 mm spot", 532), ("red laser (650 nm, 3.5mm spot)", 650),
+     ("2-5.7 um band", 3850), ("wavelength: 10.6 um", 10600)],
+)  # fmt: skip
+def test_wavelength_out_of_free_text(tmp_path, comment, nm):
+    measurement = read(tmp_path, f"# {comment}\n{plain()}")
+    assert measurement.geom.wavelength[0] == pytest.approx(nm / 1000)
+
+
 def test_quantity_by_name_is_undone(tmp_path):
     cosine = read(tmp_path, plain(header=("theta_i", "theta_r", "BRDF*cos(theta_r)")))
     np.testing.assert_allclose(cosine.brdf[:, 0] * cosine.geom.cos_r[:, 0], [row[2] for row in ROWS])
