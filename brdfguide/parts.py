@@ -98,11 +98,13 @@ class Parts:
         """Everything that may be left out, term by term."""
         return tuple(Part(term.label, feature) for term in self.sum.terms for feature in (WHOLE, *self.features(term)))
 
-    def cuts(self) -> list[Cut]:
-        """Every cut that keeps at least one term."""
+    def cuts(self, settled: frozenset[Part] = frozenset()) -> list[Cut]:
+        """Every cut that keeps at least one term, and none of the `settled` parts where the laws allow that."""
         cuts = [frozenset()]
         for term in self.sum.terms:
-            kept = [frozenset(Part(term.label, feature) for feature in way) for way in self.ways(term)]
+            gone = frozenset(part.feature for part in settled if part.label == term.label)
+            ways = self.ways(term)
+            kept = [frozenset(Part(term.label, feature) for feature in way) for way in ways if gone <= way or gone not in ways]
             cuts = [cut | more for cut in cuts for more in (*kept, frozenset({Part(term.label)}))]
         nothing_left = frozenset(Part(term.label) for term in self.sum.terms)
         return [Cut(out) for out in cuts if not nothing_left <= out]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import costs, quadrature, reach, search
+from . import costs, quadrature, reach, screens, search
 from .costs import Saving, Time
 from .errors import NoAnswer
 from .geometry import Geometry
@@ -107,6 +107,7 @@ def prune(
     laws = search.law(whole.sum, whole.values), search.law(pick.sum, pick.values)
     savings, front = search.times(picture, singles, search.front(candidates))
     whole_time, time = (costs.times({"": laws[0]}, rows)[""],) * 2 if pick.whole else costs.compare(*laws, rows)
+    bounds = screens.bounds(picture)
     findings = (
         *refused, *reach.unsettled(scene, convergence, len(picture.weights)), *reach.at_bounds(pick.sum, pick.values), *reach.strays(scene, moved),
         *reach.beyond_data(picture.quadrature, geom_of_data), *reach.over_budget(scene, time, front),
@@ -114,7 +115,7 @@ def prune(
     return Pruned(
         scene, sum_, dict(values), pick.sum, pick.values, pick.cut, pick.stand_in, pick.errors, fresh, moved, whole_time, time,
         tuple(costs.operations(each, rows[: search.COUNTED]) for each in laws),
-        tuple(Single(part, errors, savings[part], search.is_out(part, pick.cut)) for part, errors in singles.items()),
+        tuple(Single(part, errors, savings[part], search.is_out(part, pick.cut), bounds.get(part)) for part, errors in singles.items()),
         front, picture.quadrature.box(), len(picture.quadrature), convergence, int(np.sum(picture.weights == 0)), seed, findings,
     )  # fmt: skip
 
@@ -159,7 +160,7 @@ def _singles(picture: Picture) -> dict[Part, Errors]:
     return {part: picture.cut_errors(cut, picture.refitted(cut)) for part, cut in cuts.items() if picture.parts.provided(cut)}
 
 
-def _picked(picture: Picture, candidates, cuts: Mapping, draw, seed: int):
+def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int):
     """The cheapest candidate within the tolerance that stands the checks, its errors there, and what was refused on the way."""
     scene = picture.quadrature.scene
     checks, seen = None, set()
@@ -187,9 +188,10 @@ def _picked(picture: Picture, candidates, cuts: Mapping, draw, seed: int):
     return whole, whole.errors, (whole.errors,) * len(STRAY), refused
 
 
-def _worth_it(picture: Picture, pick: Candidate, cuts: Mapping) -> Candidate:
+def _worth_it(picture: Picture, pick: Candidate, cuts: dict) -> Candidate:
     """The pick with every part back whose absence saves no time that can be measured."""
-    fuller = [cuts.get(pick.cut.restoring(part)) for part in sorted(pick.cut.out, reverse=True)] if not pick.stand_in else [cuts[NOTHING]]
+    back = [NOTHING] if pick.stand_in else [pick.cut.restoring(part) for part in sorted(pick.cut.out, reverse=True)]
+    fuller = (search.judge(picture, cut, cuts) for cut in back)
     for each in fuller:
         if each is None or not each.errors.within(picture.tolerance):
             continue

@@ -151,6 +151,15 @@ class Quadrature:
         }
         return {name: (float(values.min()), float(values.max())) for name, values in angles.items() if values.size}
 
+    @cached_property
+    def reach_deg(self) -> dict[str, tuple[float, float]]:
+        """The box widened to the rims of the lights, and to all angles where light comes from all around."""
+        if self.scene.environment:
+            return {name: (0.0, 90.0) if name != "phi_deg" else (0.0, 180.0) for name in self.box()}
+        rim = float(np.degrees(self.radii.max()))
+        widen = {"theta_i_deg": rim, "theta_h_deg": rim / 2, "theta_d_deg": rim / 2}
+        return {name: (max(low - widen.get(name, 0.0), 0.0), min(high + widen.get(name, 0.0), 90.0)) for name, (low, high) in self.box().items()}
+
 
 def draw(scene: Scene, size: int, seed: int, width: float) -> Quadrature:
     """About `size` pixels of `scene`, only those that face the camera and some light.

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 
-from . import costs, stand_ins
+from . import costs, screens, stand_ins
 from .costs import NO_TIME, Saving, Time
 from .geometry import Geometry
 from .models._base import Sum
@@ -61,26 +61,31 @@ def is_out(part: Part, cut: Cut) -> bool:
 
 
 def cuts(picture: Picture) -> dict[Cut, Candidate]:
-    """All cuts judged; where there are too many, those on the way down from the whole."""
-
-    def judged(cut: Cut) -> Candidate:
-        factors = picture.refitted(cut)
-        sum_, values = picture.parts.pruned(cut), picture.values(cut, factors)
-        return Candidate(cut, sum_, values, picture.cut_errors(cut, factors), work(picture, sum_, values))
-
-    every = picture.parts.cuts()
+    """All cuts judged, but for parts that closed forms settle; where there are too many, those on the way down from the whole."""
+    found: dict[Cut, Candidate] = {}
+    every = picture.parts.cuts(screens.negligible(picture))
     if len(every) <= MOST_CUTS:
-        return {cut: judged(cut) for cut in every}
-    here, found = NOTHING, {NOTHING: judged(NOTHING)}
+        for cut in (NOTHING, *every):
+            judge(picture, cut, found)
+        return found
+    here = judge(picture, NOTHING, found)
     while True:
-        fewer = [here.without(part) for part in picture.parts.all() if not is_out(part, here)]
-        swapped = [cut.restoring(part) for cut in fewer for part in here.out]
-        tried = {cut: judged(cut) for cut in {*fewer, *swapped} - found.keys() if picture.parts.provided(cut)}
-        found |= tried
-        good = [each for each in tried.values() if each.errors.within(picture.tolerance) and each.work < found[here].work]
+        fewer = [here.cut.without(part) for part in picture.parts.all() if not is_out(part, here.cut)]
+        swapped = [cut.restoring(part) for cut in fewer for part in here.cut.out]
+        tried = [judge(picture, cut, found) for cut in {*fewer, *swapped} - found.keys() if picture.parts.provided(cut)]
+        good = [each for each in tried if each.errors.within(picture.tolerance) and each.work < here.work]
         if not good:
             return found
-        here = min(good, key=lambda each: each.work).cut
+        here = min(good, key=lambda each: each.work)
+
+
+def judge(picture: Picture, cut: Cut, found: dict[Cut, Candidate]) -> Candidate | None:
+    """The candidate of a cut, from those `found` or added to them; None where no law provides it."""
+    if cut not in found and picture.parts.provided(cut):
+        factors = picture.refitted(cut)
+        sum_, values = picture.parts.pruned(cut), picture.values(cut, factors)
+        found[cut] = Candidate(cut, sum_, values, picture.cut_errors(cut, factors), work(picture, sum_, values))
+    return found.get(cut)
 
 
 def near_misses(picture: Picture, candidates) -> list[Candidate]:

@@ -246,6 +246,22 @@ def test_colour_is_judged_by_delta_e_and_wavelength_can_be_left_out():
     assert np.shape(kept.values["ggx.n"]) == (3,)
 
 
+@pytest.mark.parametrize("name", ["frontal_product_shot", "road_at_sunset", "sphere_with_a_lamp", "gallery_light"])
+@pytest.mark.parametrize("expression", ["coupled+he-torrance", "coupled+ggx", "lambertian+cook-torrance"])
+def test_closed_forms_bound_what_is_measured(expression, name):
+    values = {key: value for key, value in ROUGH_PLASTIC.items() if key.partition(".")[0] in expression}
+    bounded = [each for each in prune(expression, values, name).singles if each.screen is not None]
+    assert bounded
+    for each in bounded:
+        assert each.errors.worst <= each.screen + 1e-6, str(each.part)
+
+
+def test_closed_forms_settle_what_is_far_below_the_tolerance():
+    result = prune("coupled+he-torrance", ROUGH_PLASTIC, "frontal_product_shot", tolerance=scene.Tolerance(3, 3))
+    assert single(result, "he-torrance.mirror").screen < 0.3
+    assert "he-torrance.mirror" in out(result)
+
+
 # --- parts and costs --------------------------------------------------------------------------------
 
 

@@ -127,14 +127,19 @@ def _verdict(block: dict) -> str:
 
 def _parts_table(block: dict) -> str:
     timed = "time_per_sample_ns" in block
-    header = ("left out alone", "mean", "p95", "worst", "codes", "where", *(("saves ns",) if timed else ()), "")
+    header = ("left out alone", "mean", "p95", "worst", "bound", "codes", "where", *(("saves ns",) if timed else ()), "")
     lines = []
     for each in block["parts"]:
         error = each["error_alone"]
-        line = [each["part"], f"{error['mean']:.2f}", f"{error['p95']:.2f}", f"{error['worst_visible']:.2f}", f"{error['worst_codes']:.1f}", _where(error)]
+        line = [each["part"], f"{error['mean']:.2f}", f"{error['p95']:.2f}", f"{error['worst_visible']:.2f}", _bound(each["bound"]), f"{error['worst_codes']:.1f}", _where(error)]
         line += [f"{each['saving_ns']:.0f} ± {each['saving_stderr_ns']:.0f}" if each["saving_measurable"] else "not measurable"] if timed else []
         lines.append([*line, "left out" if each["left_out"] else "kept"])
-    return columns(header, lines, right=(1, 2, 3, 4, 6) if timed else (1, 2, 3, 4))
+    return columns(header, lines, right=(1, 2, 3, 4, 5, 7) if timed else (1, 2, 3, 4, 5))
+
+
+def _bound(value) -> str:
+    """A closed form's upper bound, where there is one that says something."""
+    return "-" if value is None or value > 999 else f"{value:.2g}"
 
 
 def _pareto_table(block: dict) -> str:
