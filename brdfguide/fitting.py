@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from . import levenberg, sampling, starts, uncertainty
+from . import levenberg, sampling, starts, uncertainty, waves
 from .errors import InputError, choices
 from .measurement import Finding, Measurement
 from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
@@ -140,6 +140,8 @@ def settle(searched: Search, data: Data, options: Options, hopeless: bool = Fals
     stderr = uncertainty.standard_errors(layout, values, best.normal, variance, part, correlation)
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
     warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found)) if warning]
+    wide = variance * uncertainty.serial_widening(correlation) * uncertainty.common_channels(part)
+    warnings = waves.in_place_of(warnings, waves.doubts(layout, settled, *start, wide, stderr))
     if hopeless:
         warnings.append(Finding("coarse", f"its error is more than {HOPELESS:g} times the best: searched for, not refined", "note"))
     if not best.converged:

@@ -58,14 +58,18 @@ def common_channels(residuals: np.ndarray) -> float:
     return float(np.clip(correlation2.sum() / channels - chance, 1.0, channels))
 
 
+def serial_widening(correlation: float) -> float:
+    """How many neighbours in a row say what one says."""
+    return (1 + correlation) / (1 - min(correlation, 0.95))
+
+
 def standard_errors(layout: Layout, values: dict, normal: Normal, variance: float, residuals: np.ndarray, correlation: float) -> dict:
     """Standard error of each free parameter, in its own unit; infinite where the data say nothing.
 
     s² (JᵀJ)⁻¹ with the `variance` s² of one residual, widened where neighbours or channels err together: (1+ρ)/(1-ρ) for a serial
     correlation ρ, and the number of channels that say the same for what all channels share.
     """
-    serial = (1 + correlation) / (1 - min(correlation, 0.95))
-    variance = variance * serial
+    variance = variance * serial_widening(correlation)
     shared, own = normal.covariance()
     together = common_channels(residuals)
     errors = {}

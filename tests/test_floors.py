@@ -71,6 +71,7 @@ FLOORS = tuple(
         starts
         uncertainty
         validation
+        waves
         verdict
         """,
         """

@@ -66,6 +66,12 @@ def _parameters(fit: Fit) -> dict:
         own = {**term.model.defaults(), **fit.model.of_term(term, fit.values)}
         for derived in term.model.derived:
             out[f"{term.label}.{derived.name}"] = {"value": derived.of(**own), "stderr": None, "unit": derived.unit, "at_bound": None, "derived": True}
+    for finding in fit.warnings:
+        kind, _, key = finding.code.partition(":")
+        if kind == "rough-regime":  # its sigma and tau are not numbers but bounds
+            numbers = dict(finding.numbers)
+            out[key]["above"] = numbers["sigma_um_above"]
+            out[key.removesuffix("sigma") + "tau"]["above"] = numbers["sigma_um_above"] / numbers["slope"]
     return out
 
 

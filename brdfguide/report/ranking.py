@@ -66,6 +66,8 @@ def value_text(name: str, entry: dict) -> str:
     if hasattr(value, "__len__") and len(value) > 1:
         return f"{name} {min(value):.3g}..{max(value):.3g}{unit}"
     value, error = (each[0] if hasattr(each, "__len__") else each for each in (value, error))
+    if entry.get("above"):
+        return f"{name} >{entry['above']:.2g}{unit}"
     if entry["at_bound"]:
         return f"{name} {value:.3g}{unit} (at its {entry['at_bound']} bound)"
     return f"{name} {with_error(value, error)}{unit}"

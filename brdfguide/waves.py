@@ -1,0 +1,72 @@
+"""Whether a fit of He-Torrance found the height of the surface, or only its slope and a height that it must exceed.
+
+Where sigma is much larger than the wavelength the lobe tends to that of facets, whose shape knows sigma/tau alone. Then
+every larger sigma with the same slope fits as well, and a single number with a standard error would be false.
+"""
+
+from collections.abc import Mapping
+from math import exp
+
+import numpy as np
+
+from .measurement import Finding, Measurement
+from .misfit import Layout, Misfit, metric, to_coordinate
+
+SAMPLES = 300  # directions on which the question is asked
+LOOSE = 0.25  # standard error of ln sigma from which the question is asked
+SURE = 4.0  # rise of the misfit, in units of one residual's variance, that would be noticed: two standard errors
+STEPS = 12  # halvings of ln sigma: the bound to 0.1 %
+
+
+def doubts(layout: Layout, measurement: Measurement, shared, own, variance: float, stderr: Mapping) -> tuple[Finding, ...]:
+    """For each He-Torrance term: `rough-regime:KEY`, with a lower bound on sigma, where the data allow any larger one.
+
+    Takes  the coordinates where a fit ended; `variance` of one residual in ln, widened for neighbours and channels that err
+    together; the standard errors.    Gives  nothing where sigma is found, or is not searched for.
+    """
+    keys = [f"{term.label}.sigma" for term in layout.model.terms if term.model.name == "he-torrance"]
+    loose = [key for key in keys if key in layout.shared and stderr[key] > LOOSE * exp(shared[layout.shared.index(key)])]
+    return tuple(found for key in loose if (found := _bound(layout, measurement, shared, own, variance, key)))
+
+
+def in_place_of(warnings, found: tuple[Finding, ...]) -> list[Finding]:
+    """The warnings, with what `found` says better left out."""
+    keys = [finding.code.partition(":")[2] for finding in found]
+    said = {f"{code}:{key}" for key in keys for code in ("undetermined", "at-bound")}
+    return [warning for warning in warnings if warning.code not in said] + list(found)
+
+
+def _bound(layout, measurement, shared, own, variance, key):
+    parameter, place = layout.parameters[key], layout.shared.index(key)
+    rows = np.unique(np.linspace(0, len(measurement.brdf) - 1, SAMPLES).round().astype(int))
+    variance = variance * len(rows) / len(measurement.brdf)  # the thinned rows stand for all of them
+    measurement = measurement[rows]
+    misfit = Misfit(layout, measurement, metric("ln"), np.ones_like(measurement.brdf))
+
+    def cost(coordinate):
+        """Sum of squares at this sigma once the other parameters have made up for it as well as a linear step can."""
+        at = shared.copy()
+        at[place] = coordinate
+        residual, by_shared, by_own = misfit(at, own, True)
+        others = np.concatenate([np.delete(by_shared, place, axis=2), by_own], axis=2)
+        total = 0.0
+        for channel, columns in enumerate(others):
+            scale = np.sqrt(np.sum(columns**2, axis=0)) + 1e-300
+            made_up, *_ = np.linalg.lstsq(columns / scale, residual[:, channel], rcond=1e-10)
+            total += np.sum((residual[:, channel] - columns / scale @ made_up) ** 2)
+        return total
+
+    low, high = (float(to_coordinate(parameter, end)) for end in (parameter.low, parameter.high))
+    limit = cost(shared[place]) + SURE * variance
+    if cost(high) > limit:
+        return None
+    high = float(shared[place])
+    if cost(low) <= limit:
+        return None  # nothing is known of sigma at all, which its standard error says
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if cost(middle) <= limit else (middle, high)
+    slope = float(np.mean(layout.decode(shared, own)[key.replace("sigma", "slope")]))
+    text = f"only sigma/tau is determined: {key} > {exp(high):.2g} um, and any larger one with slope {slope:.3g} fits as well"
+    return Finding(f"rough-regime:{key}", text, "warning", "do not use sigma or tau by themselves", "", (("sigma_um_above", exp(high)), ("slope", slope)))
+
