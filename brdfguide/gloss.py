@@ -149,7 +149,8 @@ class Roughness:
 
 def alpha_from(reading: float, angle: int, n: float, lobe: str = "beckmann", albedo: float = 0.0) -> float | None:
     """The width that one reading stands for; None where the reading lies outside what this index can give."""
-    aim = (reading - albedo * DIFFUSE[angle]) / _mirror_units(angle, n)
+    smooth = _mirror_units(angle, n)
+    aim = (reading - albedo * DIFFUSE[angle]) / smooth if smooth else -1.0
     if not _quick_share(angle, HIGH, lobe) <= aim <= _quick_share(angle, LOW, lobe):
         return None
     low, high = log(LOW), log(HIGH)

@@ -14,7 +14,7 @@ def constant_cost(n, k, highest: float = 85.0) -> tuple[float, float]:
     """(worst relative error, best constant) of a constant in place of F over 0..`highest` degrees."""
     f = fresnel(np.cos(np.radians(ANGLES[ANGLES <= highest])), n, k)
     low, high = float(f.min()), float(f.max())
-    return (high - low) / (high + low), 2 * low * high / (low + high)
+    return ((high - low) / (high + low), 2 * low * high / (low + high)) if high else (0.0, 0.0)
 
 
 @lru_cache(maxsize=256)

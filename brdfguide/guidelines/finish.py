@@ -27,7 +27,7 @@ def gloss_width(material: Material) -> gloss.Roughness | None:
     if not material.gloss or material.kind == "metal" or not any(material.gloss.values()):
         return None
     body = sum(material.albedo) / len(material.albedo) if material.albedo and material.subsurface != "none" else 0.0
-    return gloss.roughness_from(dict(material.gloss), n=material.n[0] if material.n else 1.5, albedo=body)
+    return gloss.roughness_from(dict(material.gloss), n=material.n[len(material.n) // 2] if material.n else 1.5, albedo=body)
 
 
 def sources(material: Material) -> list[tuple[float, str]]:
@@ -65,7 +65,10 @@ def stylus_against_emergence(material: Material) -> Advice | None:
     tau = material.tau or 2 * material.sigma / material.alpha
     if not 1e-3 <= material.sigma / tau <= roughness.STEEPEST:
         return None
-    predicted = roughness.emergence_angle(material.sigma, tau, wavelength(material), material.solid_angle)
+    try:
+        predicted = roughness.emergence_angle(material.sigma, tau, wavelength(material), material.solid_angle)
+    except NoAnswer:
+        return None
     seen = degrees(material.emergence) if material.emerges else None
     if (predicted is None or predicted > 80) and (seen is None or seen > 85):
         return None
@@ -82,6 +85,13 @@ def contour_from_half_a_stylus(material: Material) -> Advice | None:
     if material.emergence is None or (material.sigma is None) == (material.tau is None):
         return None
     angle, light = degrees(material.emergence), wavelength(material)
+    try:
+        return _other_half(material, angle, light)
+    except NoAnswer as error:
+        return Advice(f"no point on the contour of {angle:g}°: {error}", "half a stylus against emergence", conflict=True)
+
+
+def _other_half(material: Material, angle: float, light: float) -> Advice:
     if material.tau is None:
         tau = roughness.tau_for_sigma(angle, material.sigma, light, material.solid_angle)
         return Advice(f"tau {tau:.3g} µm on the contour of {angle:g}°", f"sigma {material.sigma:g} µm", sets={"tau": tau, "slope": material.sigma / tau})

@@ -2,6 +2,7 @@
 
 from math import degrees
 
+from ..guidelines.choice import sample_like
 from ..recommend import Candidate, Recommendation
 from . import table
 
@@ -22,6 +23,7 @@ def document(found: Recommendation, timing: bool = True) -> dict:
         "material": _material(found),
         "domain": {"status": found.status, "reasons": [{"rule": a.rule, "section": a.section, "status": a.domain, "text": a.says, "needs": a.needs or None} for a in found.reasons]},
         "verdict": {"kind": found.verdict, "evidence": found.evidence},
+        "nearest_sample": dict(zip(("name", "why"), sample_like(found.material))),
         "recommended": found.candidates[0].model.name if found.candidates else None,
         "candidates": [_candidate(each, timing) for each in found.candidates],
         "advice": [
