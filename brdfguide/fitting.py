@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import permutations
 from time import perf_counter
 
 import numpy as np
@@ -254,12 +255,22 @@ def _robust(weights, residuals, measurement: Measurement):
     return weights / (1 + (residuals / max(ROBUST_WIDTH * spread, 1e-12)) ** 2)
 
 
+def _exchanged(layout: Layout, shared):
+    """The same place with lobes of one law in every order: which of them comes first means nothing."""
+    labels = [term.label for term in layout.model.terms if term.label.rpartition(".")[2].isdigit()]
+    for order in permutations(labels):
+        other = dict(zip(labels, order))
+        if all(one.rpartition(".")[0] == another.rpartition(".")[0] for one, another in other.items()):
+            keys = [f"{other.get(key.rpartition('.')[0], key.rpartition('.')[0])}.{key.rpartition('.')[2]}" for key in layout.shared]
+            yield shared[[layout.shared.index(key) for key in keys]]
+
+
 def _disagreement(layout: Layout, ends) -> Finding | None:
     """Two starts that ended equally well in different places."""
     if len(ends) < 2:
         return None
     (best, _, error), (other, _, worse) = ends[:2]
-    if np.max(np.abs(best - other), initial=0.0) < 0.1 or worse > 1.02 * error + 1e-6:
+    if worse > 1.02 * error + 1e-6 or any(np.max(np.abs(best - each), initial=0.0) < 0.1 for each in _exchanged(layout, other)):
         return None
     own = np.zeros((layout.channels, len(layout.own)))
     shown = lambda key, shared: layout.parameters[key].outside(layout.decode(shared, own)[key])  # noqa: E731

@@ -134,23 +134,27 @@ def difference(one, best, segments) -> tuple[float, float]:
 
     rms_a - rms_b = mean(a² - b²)/(rms_a + rms_b)   and   a² - b² = (a - b)² + 2 b (a - b)
 
-    The two models are given and a - b with them; what chance could have made otherwise is the best model's residual b.
-    So the error is that of the mean of 2 b (a - b), taken between whole segments of neighbours, which err together.
+    The two models are given and d = a - b with them. What chance could have made otherwise is the part of the best
+    model's residual b that no multiple of d explains: b - c d with c = Σ b d / Σ d². The error is that of the mean of
+    2 d (b - c d), taken between whole segments of neighbours, which err together; a segment that has a large share of
+    Σ d² has drawn c to itself, and its sum is widened for it (Bell and McCaffrey 2002, CR2). Where d lives in few
+    segments the error is itself uncertain; it is widened as Student's t is at two standard errors.
     """
     apart = one - best
-    chance = 2 * best * apart
-    seen = np.isfinite(chance)
+    seen = np.isfinite(apart) & np.isfinite(best)
     total = float(np.sqrt(np.mean(one[seen] ** 2)) + np.sqrt(np.mean(best[seen] ** 2)))
-    if total == 0:
+    power = float(np.sum(apart[seen] ** 2))
+    if total == 0 or power == 0:
         return 0.0, 0.0
     count = np.count_nonzero(seen)
-    mean = float(np.mean(apart[seen] ** 2 + chance[seen]))
-    sums = np.bincount(segments, np.where(seen, chance, 0.0).sum(axis=1))
-    counts = np.bincount(segments, seen.sum(axis=1))
-    sums, counts = sums[counts > 0], counts[counts > 0]
-    groups = len(sums)
-    spread = np.sqrt(np.sum((sums - sums.sum() / count * counts) ** 2) * groups / max(groups - 1, 1)) / count
-    return mean / total, float(spread / total)
+    share = float(np.sum(best[seen] * apart[seen])) / power
+    chance = np.where(seen, 2 * apart * (best - share * apart), 0.0)
+    sums = np.bincount(segments, chance.sum(axis=1))
+    leverage = np.bincount(segments, np.where(seen, apart**2, 0.0).sum(axis=1)) / power
+    freedom = max(1 / np.sum(leverage**2) - 1, 1.0)
+    student = 1 + 1.25 / freedom + 1.53 / freedom**2  # t/z at z = 2, to second order
+    spread = student * np.sqrt(np.sum(sums**2 / np.maximum(1 - leverage, 1e-3))) / count
+    return power * (1 + 2 * share) / count / total, float(spread / total)
 
 
 def noise_of(residuals, measurement: Measurement) -> float:

@@ -14,18 +14,19 @@ from .models import Sum
 
 GRID_SAMPLES = 160  # directions on which the grid is judged
 MOST_SHAPES = 20_000  # of a sum; beyond, the finer axes are thinned
+FAINTEST = 1e-12  # of the largest value: what is darker decides nothing about where to begin
 SPREAD = 6  # values along a parameter that names no starts of its own
 
 
 def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> list[dict]:
-    """The best `count` starts that lie apart on the grid, best first; values as in `Fit.values`.
+    """The best `count` starts that lie apart on the grid, best first, and that of the brightest parts; values as in `Fit.values`.
 
-    Judged by the rms of ln(model/data) over a few hundred well-spread directions, all channels averaged.
+    Judged by the rms of ln(model/data) over a few hundred well-spread directions, all channels averaged, and by cube roots.
     """
     rows = spread_rows(measurement, GRID_SAMPLES)
     geom = measurement.geom[rows].at(np.atleast_1d(np.mean(measurement.geom.wavelength)))
     data, usable = _channel_mean(measurement, rows)
-    geom, data = geom[usable], data[usable]
+    geom, data = geom[usable], np.maximum(data[usable], FAINTEST * np.max(data[usable]))
     axes, bases = zip(*(_term_grid(layout, term, geom) for term in layout.model.terms))
     shapes = list(product(*(range(len(axis)) for axis in axes)))
     if len(shapes) > MOST_SHAPES:
@@ -43,6 +44,10 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
             picked.append(int(candidate))
         if len(picked) == count:
             break
+    # a narrow lobe without a body falls by decades: every wrong width is far off in ln, and its peak finds it better
+    brightest = int(np.argmin(np.sum((np.cbrt(model) - np.cbrt(data)) ** 2, axis=1)))
+    if all(_apart(places[brightest], places[other], axes) for other in picked):
+        picked.append(brightest)
     return [amplitudes_by_channel(layout, measurement[rows], _values(layout.model, axes, places[each], amplitudes[each])) for each in picked]
 
 
@@ -53,6 +58,7 @@ def amplitudes_by_channel(layout: Layout, measurement: Measurement, values: dict
     unit = {**values, **{f"{t.label}.{t.model.amplitude}": 1.0 for t in terms if t.model.amplitude and not _is_fixed(layout, t)}}
     shapes = [t.model(measurement.geom, **layout.model.of_term(t, unit)) for t in terms]
     data = np.where(measurement.usable, measurement.brdf, np.inf)  # a missing value asks for nothing
+    data = np.maximum(data, FAINTEST * np.max(data[measurement.usable], initial=0.0))
     columns = np.stack([(np.broadcast_to(shape, measurement.brdf.shape) / data).T for shape in shapes], axis=2)
     # where nothing is asked for, the target of 1 must not be missed either
     seen = measurement.usable.T

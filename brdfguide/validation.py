@@ -63,7 +63,8 @@ def growth(fit: Fit, measurement: Measurement) -> dict | None:
     channel = measurement.brdf.shape[1] // 2
     values = {key: value[channel] if np.ndim(value) else value for key, value in fit.values.items()}
     wavelength = np.atleast_1d(measurement.geom.wavelength)[min(channel, np.size(measurement.geom.wavelength) - 1)]
-    theta_r = np.linspace(-85, 85, 171)
+    reach = min(85.0, float(np.max(measurement.geom.theta_r_deg)))  # a peak beyond the last detector angle is in no data
+    theta_r = np.linspace(-reach, reach, 171)
     model = {}
     for name, theta in (("low", low), ("high", high)):
         sweep = fit.model(in_plane(theta, theta_r, wavelength), values)

@@ -1,0 +1,67 @@
+"""Whether the printed intervals hold the truth, and whether a wrong model is known by its traces."""
+
+import numpy as np
+import pytest
+
+from brdfguide import fitting, models
+from brdfguide.misfit import Layout
+
+from . import synthetic
+
+GGX, COOK = models.get("lambertian+ggx"), models.get("lambertian+cook-torrance")
+SETS = 16
+
+
+@pytest.mark.parametrize("name", ["lambertian+ward", "lambertian+ggx", "lambertian+lafortune"])
+def test_intervals_hold_the_truth_as_often_as_they_say_with_seeds_0_to_15(name):
+    """200 sets each are in benchmarks/recovery.py; here 16, and a binomial bound of three standard deviations."""
+    model, inside, count, off = models.get(name), 0, 0, []
+    for seed in range(SETS):
+        random = np.random.default_rng([seed, 21])
+        values = synthetic.random_values(Layout(model, 3), random)
+        data = synthetic.surface(model, synthetic.scan(step=5), values, noise=random.uniform(0.02, 0.05), seed=seed, channels=3)
+        found = fitting.fit(model, synthetic.with_gaps(data, seed))
+        assert found.converged
+        for key, stderr in found.stderr.items():
+            z = (np.atleast_1d(found.values[key]) - values[key]) / stderr
+            inside, count, off = inside + np.count_nonzero(np.abs(z) < 1.96), count + z.size, off + list(z)
+    spread = 3 * np.sqrt(0.95 * 0.05 * count)
+    assert abs(inside - 0.95 * count) < spread
+    assert abs(np.median(off)) < 4 / np.sqrt(count)
+
+
+@pytest.mark.parametrize("channels", [1, 3])
+@pytest.mark.parametrize("geometry", ["scan", "hemisphere"])
+def test_a_wrong_lobe_is_known_by_its_traces_and_the_right_one_is_not_accused_with_seeds_0_to_9(geometry, channels):
+    geom = synthetic.scan() if geometry == "scan" else synthetic.hemisphere(600)
+    for seed in range(10):
+        random = np.random.default_rng([seed, 22])
+        values = {"lambertian.albedo": random.uniform(0.05, 0.6), "ggx.alpha": random.uniform(0.1, 0.5), "ggx.n": random.uniform(1.3, 2.0)}
+        data = synthetic.surface(GGX, geom, values, noise=0.02, seed=seed, channels=channels)
+        assert fitting.fit(COOK, data).has("discrepancy")
+        assert not fitting.fit(GGX, data).has("discrepancy")
+
+
+def test_discrepancy_says_how_far_off_the_model_is():
+    data = synthetic.surface(GGX, synthetic.scan(), {"lambertian.albedo": 0.2, "ggx.alpha": 0.3, "ggx.n": 1.5}, noise=0.02, seed=1)
+    found = fitting.fit(COOK, data)
+    numbers = dict(next(each for each in found.warnings if each.code == "discrepancy").numbers)
+    assert numbers["systematic_rms_ln"] == pytest.approx(np.sqrt(found.rms_ln**2 - 0.02**2), rel=0.15)
+
+
+def test_channels_that_err_together_widen_the_interval_of_what_they_share():
+    random = np.random.default_rng(9)
+    data = synthetic.surface(GGX, synthetic.scan(), {"lambertian.albedo": 0.3, "ggx.alpha": 0.25, "ggx.n": 1.5}, channels=3)
+    apart, together = data.brdf * np.exp(0.03 * random.standard_normal(data.brdf.shape)), data.brdf * np.exp(0.03 * random.standard_normal((len(data.brdf), 1)))
+    data.brdf[:] = apart
+    independent = fitting.fit(GGX, data).stderr["ggx.alpha"]
+    data.brdf[:] = together
+    assert fitting.fit(GGX, data).stderr["ggx.alpha"] == pytest.approx(np.sqrt(3) * independent, rel=0.25)
+
+
+def test_twice_the_noise_gives_twice_the_interval():
+    errors = []
+    for noise in (0.01, 0.02):
+        data = synthetic.surface(GGX, synthetic.scan(), {"lambertian.albedo": 0.3, "ggx.alpha": 0.25, "ggx.n": 1.5}, noise=noise, seed=4)
+        errors.append(fitting.fit(GGX, data).stderr["ggx.alpha"])
+    assert errors[1] / errors[0] == pytest.approx(2, rel=0.1)
