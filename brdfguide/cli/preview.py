@@ -48,7 +48,11 @@ def _caption(surface) -> tuple[str, str]:
 
     short = lambda value: f"{np.mean(value):.3g}" + (" on average" if np.ptp(value) > 0 else "")  # noqa: E731
     shapes = surface.model.parameters
-    words = [f"{key} {short(value)} {shapes[key].unit}".strip() for key, value in surface.values.items() if key in shapes and (shapes[key].free or short(value) != "0")]
+    words = []
+    for key, value in surface.values.items():
+        if key in shapes and (shapes[key].free or short(value) != "0"):
+            turned = shapes[key].unit == "rad"
+            words.append(f"{key} {short(np.degrees(value) if turned else value)} {'°' if turned else shapes[key].unit}".strip())
     return surface.name, ", ".join(words)
 
 
