@@ -239,3 +239,21 @@ def test_pixel_of_a_sphere_turns_with_the_number_of_pixels():
     assert few.pixel_normal == pytest.approx(10 * many.pixel_normal)
     assert replace(few, pixel_normal_deg=0.5).pixel_normal == pytest.approx(radians(0.5))
     assert scene.DEFAULT.pixel_normal == 0
+
+
+def test_every_key_is_in_the_readme():
+    text = (ROOT / "examples" / "scenes" / "README.md").read_text()
+
+    def names(fields):
+        for each in fields:
+            yield each.name
+            yield from names(each.fields)
+
+    missing = {name for name in names(scene.FIELDS) if f"`{name}`" not in text}
+    assert not missing
+
+
+def test_defaults_are_those_of_the_readme():
+    d = scene.DEFAULT.display
+    assert (d.exposure, d.white, d.floor, d.weber, d.bits, d.gamma, d.peak_cd_m2) == (1, 1.5, 0.002, 0.02, 8, 2.2, 100)
+    assert (scene.DEFAULT.shape, scene.DEFAULT.pixels, scene.DEFAULT.colour, scene.DEFAULT.environment) == ("arbitrary", 1e6, "spectral", 0)
