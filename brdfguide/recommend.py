@@ -42,15 +42,9 @@ def candidates(kind: str | None = None, names=None) -> tuple[Sum, ...]:
         return tuple(as_metal(each) for each in sums) if kind == "metal" else sums
     on_body = [f"lambertian+{lobe}" for lobe in LOBES] + ["oren-nayar+ggx"]
     bare = list(LOBES if kind == "metal" else FRESNEL)
-    dielectrics = () if kind == "metal" else tuple(catalogue.get(name) for name in on_body if _exists(name))
-    metals = () if kind == "dielectric" else tuple(as_metal(catalogue.get(name)) for name in bare if _exists(name))
+    dielectrics = () if kind == "metal" else tuple(catalogue.get(name) for name in on_body)
+    metals = () if kind == "dielectric" else tuple(as_metal(catalogue.get(name)) for name in bare)
     return dielectrics + metals
-
-
-def _exists(name: str) -> bool:
-    """Whether every law of the sum is in the catalogue."""
-    known = catalogue.names()
-    return all(word.partition(":")[0] in known for word in name.split("+"))
 
 
 def as_metal(sum_: Sum) -> Sum:

@@ -40,7 +40,14 @@ def verdict(measurement: Measurement) -> Verdict:
         return Verdict("metal", tuple(metal), numbers)
     if dielectric and not metal:
         return Verdict("dielectric", tuple(dielectric), numbers)
-    return Verdict(CANNOT_TELL, tuple(metal + dielectric) or ("neither the level near the normal, nor the body, nor the colours decide",), numbers)
+    return Verdict(CANNOT_TELL, tuple(metal + dielectric) or (_undecided(seen),), numbers)
+
+
+def _undecided(seen: "_Seen") -> str:
+    said = "neither the level near the normal, nor the body, nor the colours decide"
+    if not np.isfinite(seen.rise) or seen.rise < 3:
+        return said
+    return f"{said}; the peak rises {seen.rise:.3g} times toward grazing, which Fresnel's factor of a dielectric and a mirror image emerging from a metal both do"
 
 
 def _metal(seen: "_Seen") -> list[str]:
@@ -77,7 +84,8 @@ class _Seen:
     def numbers(self):
         return (
             ("lobe_reflectance", self.lobe_reflectance), ("whole_reflectance", self.whole_reflectance), ("body_colour", self.body_colour),
-            ("lobe_colour", self.lobe_colour), ("body_spread", max(self.body) / min(self.body) if self.body else np.nan),
+            ("lobe_colour", self.lobe_colour), ("rise", self.rise),
+            ("body_spread", max(self.body) / min(self.body) if self.body else np.nan),
         )  # fmt: skip
 
     def _count(self, theta) -> int:
@@ -146,6 +154,15 @@ class _Seen:
         fine = np.linspace(0.0, np.radians(d[-1]), 2000)
         lobe = np.exp(np.interp(fine, np.radians(d), np.log(np.maximum(f - profile.min(), 1e-12))))
         return float(np.sum(lobe * 2 * np.pi * np.sin(fine)) * fine[1] * np.cos(np.radians(theta)))
+
+    @cached_property
+    def rise(self) -> float:
+        """The greatest value within 5° of the mirror direction at the steepest incidence up to 80°, over that at the lowest; NaN without both."""
+        peaks = [(theta, self._at(theta, lambda r: self.from_mirror[r] <= 5)) for theta in sorted(self.rows) if theta <= 80]
+        peaks = [(theta, float(np.max(self.grey[rows]))) for theta, rows in peaks if len(rows)]
+        if len(peaks) < 2 or peaks[0][0] > LOW_DEG or peaks[-1][0] < STEEP_DEG:
+            return np.nan
+        return peaks[-1][1] / peaks[0][1]
 
     @cached_property
     def body_colour(self) -> float:

@@ -58,3 +58,10 @@ def test_start_values_lie_inside_the_bounds_of_their_laws():
 def test_an_index_below_1_survives_as_a_start_value():
     _, values, _ = started("ggx", "composition: silver\nfinish: satin")
     assert (values["ggx.n"], values["ggx.k"]) == (0.12, 3.45)
+
+
+def test_exponents_follow_from_the_width():
+    text = "composition: aluminium\nhighlight_width_deg: 19.0287"
+    assert started("blinn", text)[1]["blinn.exponent"] == pytest.approx(198, rel=1e-3)
+    assert started("phong", text)[1]["phong.exponent"] == pytest.approx(49.5, rel=1e-3)
+    assert started("phong-lewis", text)[1]["phong-lewis.exponent"] == pytest.approx(49.5, rel=1e-3)
