@@ -85,7 +85,8 @@ def reduced(*out: str):
 
     fresnel    F at normal incidence instead of F(θd)
     masking    no shadows, neither on the light nor on the effective roughness
-    series     Σ g^m e^-g/(m! m) e^(-y/m) = e^-x/g (1 + (x² - 4x + 2)/2g), x = y/g: ours, to second order in 1/g
+    series     Σ g^m e^-g/(m! m) e^(-y/m) = e^-x/g (1 + (x² - 4x + 2)/2g), x = y/g: ours, to second order in
+               1/g; within 24/g² of the sum for x <= 9, where g >= 18
     waves      the same to first order, e^-x/g, which is Beckmann's lobe with alpha = 2 slope
     """
 
