@@ -43,7 +43,7 @@ def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
     Raises InputError where the values contradict themselves and NoAnswer for a surface outside the guide, unless `anyway`.
     """
     measurement, found = _settled(measurement, anyway)
-    beyond = outside(found)
+    beyond = outside((*measurement.findings, *found))
     if beyond and not anyway:
         raise NoAnswer(f"{measurement.name or 'measurement'}: {beyond[0].text}; {beyond[0].consequence}; {beyond[0].option} answers all the same")
     if not anyway:
@@ -204,6 +204,8 @@ def _retro(m: Measurement):
 def _rotation(m: Measurement):
     """Does the value depend on how the sample is turned?"""
     geom = m.geom
+    if {"anisotropic", "averaged-over-rotation", "isotropic"} & {finding.code for finding in m.findings}:
+        return  # the reader saw the rotations, which the measurement no longer has
     if len(np.unique(np.round(geom.phi_i_deg[geom.theta_i_deg > 1], 0))) > 1:
         phi = np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0)
         keys = np.round(np.stack([geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0], phi], axis=1), 1)

@@ -11,7 +11,7 @@ from .measurement import Measurement
 
 NEAR_DEG = 3.0  # how far apart a direction and the exchanged one may lie
 LEVER = 0.15  # least |ln (cos theta_r / cos theta_i)| that says something about the power
-MOST = 2500  # directions compared
+MOST = 1200  # directions compared
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Reciprocity:
 
 
 def test(measurement: Measurement, seed: int = 0) -> Reciprocity | None:
-    """Compares up to 2500 directions with their exchange; None where fewer than 12 pairs can be formed."""
+    """Compares up to 1200 directions with their exchange; None where fewer than 12 pairs can be formed."""
     compared = pairs(measurement, seed)
     if compared is None:
         return None

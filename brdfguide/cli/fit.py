@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from ._data import AnywayOption, ApertureOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
+from ._data import AnywayOption, ApertureOption, AveragePhiOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
 from ._options import JsonOption, NoTimingOption, QuietOption, on_terminal, print_json, progress, write_whole
 from ._report import PlotOption, ReportOption, show_ranking, sketch_of
@@ -34,6 +34,7 @@ def fit(
     unit: UnitOption = None,
     quantity: QuantityOption = None,
     mirror_side: MirrorSideOption = None,
+    average_phi_i: AveragePhiOption = False,
     aperture_deg: ApertureOption = None,
     anyway: AnywayOption = False,
     scene: SceneOption = None,
@@ -55,7 +56,7 @@ def fit(
 
     options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
     names = expressions(models)
-    reading = (columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max)
+    reading = (columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, average_phi_i)
     if len(data) > 1 or out:
         from ..batch import Job
         from ._batch import fit_many

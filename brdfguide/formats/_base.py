@@ -154,6 +154,17 @@ def check_zenith(source: Source, name: str, degrees, lines=None) -> None:
         raise source.error(f"{name} = {degrees[row]:g} degrees; a zenith angle lies within -90..90", None if lines is None else int(lines[row]))
 
 
+def averaged(turns: int, spread: float, options: Options) -> Finding:
+    """The note on a mean over `turns` rotations of a sample whose values spread by `spread` (rms of ln) about it."""
+    numbers = (("rotations", turns), ("rms_ln_over_rotation", spread))
+    if spread < 0.05:
+        return Finding("isotropic", f"{turns} rotations of the sample differ by {np.expm1(spread):.1%} (rms): their mean is taken", numbers=numbers)
+    if options.average_phi_i:
+        return Finding("averaged-over-rotation", f"mean over {turns} rotations of an anisotropic sample", "warning", option="--average-phi-i", numbers=numbers)
+    text = f"anisotropic: {turns} rotations of the sample differ by {np.expm1(spread):.0%} (rms)"
+    return Finding("anisotropic", text, "outside", "the guide's models are isotropic", "--average-phi-i, which takes the mean,", numbers)
+
+
 def nominal_colours(channels) -> Finding:
     """The note that colours stand for a band, and which."""
     table = {**RGB_UM, **XYZ_UM}

@@ -74,7 +74,8 @@ def _steps(source: Source, header, axis: str, line: int):
         low, high, step = (header[f"{axis} {word}"] for word in ("beginning", "end", "step"))
     except KeyError as missing:
         raise source.error(f"no '{missing.args[0].replace(' ', ' measure ')}' in the header of this block", line) from None
-    count = 1 if step == 0 else (high - low) / step + 1
+    finite = all(abs(value) < 1e6 for value in (low, high, step))
+    count = (1 if step == 0 else (high - low) / step + 1) if finite else 0
     if not 1 <= count <= MOST_CELLS:
         raise source.error(f"{axis} from {low:g} to {high:g} in steps of {step:g} is no range", line)
     return low + step * np.arange(int(round(count)))

@@ -16,7 +16,7 @@ import numpy as np
 from ..geometry import Geometry, rows
 from ..measurement import Finding, Measurement
 from . import _tensor
-from ._base import RGB_UM, Format, Options, Source, nominal_colours
+from ._base import RGB_UM, Format, Options, Source, averaged, nominal_colours
 
 LIMIT = 2**30
 GRID_THETA, GRID_PHI = 40, 36  # half-vector directions for each incidence, even in u_m
@@ -29,32 +29,41 @@ def recognises(head: bytes) -> bool:
 
 
 def read(source: Source, options: Options) -> Measurement:
-    """Raises InputError for a damaged container, missing fields, and an anisotropic table without --average-phi-i."""
+    """Raises InputError for a damaged container and missing fields. An anisotropic table gives its mean, marked as outside the guide."""
     fields = _checked(source, _tensor.fields(source))
-    phi_i = np.degrees(fields["phi_i"].astype(float))
-    anisotropic = len(phi_i) > 2
-    if anisotropic and not options.average_phi_i:
-        text = f"anisotropic: {len(phi_i)} azimuths of the light were measured, which the guide's models cannot follow"
-        raise source.error(f"{text}; --average-phi-i takes their mean")
+    phi_i = _turns(fields)
     theta_i = np.degrees(fields["theta_i"].astype(float))
     theta_i = theta_i[theta_i <= STEEPEST_DEG]
     geom = _directions(theta_i)
-    brdf = _averaged(fields, geom, phi_i if anisotropic else None)
+    brdf = _averaged(fields, geom, phi_i)
     channels, um, notes = _channels(fields)
     text = f"a table: {len(geom)} directions chosen at its {len(theta_i)} stored incidences, even in the root of the half angle, to {STEEPEST_DEG:g} degrees"
     found = [Finding("table", text, consequence="dense near the mirror direction", numbers=(("directions", len(geom)),))]
-    if anisotropic:
-        found.append(Finding("averaged-over-rotation", f"mean over {len(phi_i)} rotations of an anisotropic sample", "warning", option="--average-phi-i"))
+    if phi_i is not None:
+        found.append(averaged(len(phi_i), _spread(fields, geom, phi_i, brdf), options))
     return Measurement(geom.at(um), brdf, channels, name=source.name, format="RGL .bsdf", findings=(*found, *notes))
 
 
 def function(source: Source, options: Options):
     """The table at any direction; anisotropic ones averaged over the rotation where the options ask for it."""
     fields = _checked(source, _tensor.fields(source))
-    phi_i = np.degrees(fields["phi_i"].astype(float))
-    if len(phi_i) > 2 and not options.average_phi_i:
+    phi_i = _turns(fields)
+    if phi_i is not None and not options.average_phi_i:
         raise source.error(f"anisotropic: {len(phi_i)} azimuths of the light were measured; --average-phi-i takes their mean")
-    return lambda geom: _averaged(fields, geom, phi_i if len(phi_i) > 2 else None), _channels(fields)[0]
+    return lambda geom: _averaged(fields, geom, phi_i), _channels(fields)[0]
+
+
+def _turns(fields):
+    """The azimuths of the light [deg] of an anisotropic table, None for an isotropic one."""
+    return np.degrees(fields["phi_i"].astype(float)) if len(fields["phi_i"]) > 2 else None
+
+
+def _spread(fields, geom: Geometry, phi_i, mean) -> float:
+    """rms of ln (value / mean) over the rotations, brightest channel, at a hundred directions."""
+    some = np.linspace(0, len(geom) - 1, 100).astype(int)
+    channel = int(np.argmax(mean.sum(axis=0)))
+    ratio = np.stack([evaluate(fields, geom[some], turn)[:, channel] for turn in phi_i[:-1]]) / np.maximum(mean[some, channel], 1e-12)
+    return float(np.sqrt(np.mean(np.log(np.clip(ratio, 1e-3, 1e3)) ** 2)))
 
 
 def _averaged(fields, geom: Geometry, phi_i) -> np.ndarray:

@@ -12,7 +12,7 @@ import re
 import numpy as np
 
 from ..measurement import Finding, Measurement
-from ._base import XYZ_UM, Format, Options, Source, check_zenith, from_comments, measurement, nominal_colours
+from ._base import XYZ_UM, Format, Options, Source, averaged, check_zenith, from_comments, measurement, nominal_colours
 
 LISTS = ("SampleRotation", "AngleOfIncidence", "ScatterAzimuth", "ScatterRadial")
 MOST_ANGLES = 100_000
@@ -24,7 +24,7 @@ def recognises(head: bytes) -> bool:
 
 
 def read(source: Source, options: Options) -> Measurement:
-    """Raises InputError for transmission, several rotations without --average-phi-i, and counts that do not agree."""
+    """Raises InputError for transmission and for counts that do not agree. Several rotations give their mean."""
     words = _Words(source)
     header, lists = {}, {}
     while (word := words.next("a keyword")) != "DataBegin":
@@ -51,7 +51,7 @@ def read(source: Source, options: Options) -> Measurement:
     notes = [_below(int(np.count_nonzero(~keep)))] if not np.all(keep) else []
     keep &= _once(lists["ScatterRadial"], shape)
     if len(rotations) > 1:
-        brdf, theta_i, theta_r, phi_r, keep = _averaged(source, options, brdf, theta_i, theta_r, phi_r, keep, len(rotations), notes)
+        brdf, theta_i, theta_r, phi_r, keep = _averaged(options, brdf, theta_i, theta_r, phi_r, keep, len(rotations), notes)
     notes.append(Finding("tis", "total integrated scatter as the file states it", numbers=tuple(_stated_tis(lists["AngleOfIncidence"], tis[0]))))
     if len(channels) == 3:
         um, notes = np.array([XYZ_UM[name] for name in channels]), [*notes, nominal_colours(channels)]
@@ -101,12 +101,15 @@ def _plane(source: Source, words: "_Words", shape, first: bool):
     return values.reshape(shape), tis
 
 
-def _averaged(source, options, brdf, theta_i, theta_r, phi_r, keep, rotations, notes):
-    if not options.average_phi_i:
-        raise source.error(f"anisotropic: {rotations} sample rotations were measured; --average-phi-i takes their mean")
-    notes.append(Finding("averaged-over-rotation", f"mean over {rotations} rotations of the sample", "warning", option="--average-phi-i"))
+def _averaged(options, brdf, theta_i, theta_r, phi_r, keep, rotations, notes):
+    """The mean over the rotations of the sample, and a note on how far they differ."""
     cells = len(theta_i) // rotations
-    return brdf.reshape(rotations, cells, -1).mean(axis=0), theta_i[:cells], theta_r[:cells], phi_r[:cells], keep[:cells]
+    turned = brdf.reshape(rotations, cells, -1)
+    mean = turned.mean(axis=0)
+    lit = keep[:cells] & np.all(turned > 0, axis=(0, 2))
+    ratio = np.log(turned[:, lit] / mean[lit])
+    notes.append(averaged(rotations, float(np.sqrt(np.mean(ratio**2))) if ratio.size else 0.0, options))
+    return mean, theta_i[:cells], theta_r[:cells], phi_r[:cells], keep[:cells]
 
 
 def _below(count: int) -> Finding:

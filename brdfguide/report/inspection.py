@@ -25,7 +25,7 @@ def document(measurement: Measurement, found, corrections) -> dict:
         "noise_relative": by_code.get("noise", {}).get("relative"),
         "findings": [finding(each) for each in found],
         "corrections": [finding(each) for each in corrections],
-        "status": status(found),
+        "status": status((*measurement.findings, *found)),
     })  # fmt: skip
 
 

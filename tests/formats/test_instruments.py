@@ -55,9 +55,11 @@ def test_zemax_colours_and_refusals(tmp_path):
         read(tmp_path, containers.zemax()[:-30])
     with pytest.raises(InputError, match="ScatterRadial promises 300000000 angles"):
         read(tmp_path, containers.zemax().replace("ScatterRadial 3", "ScatterRadial 300000000"))
-    with pytest.raises(InputError, match="anisotropic: 2 sample rotations"):
-        doubled = containers.zemax().replace("SampleRotation 1\n0", "SampleRotation 2\n0 90").replace("DataEnd", "TIS 1\n" + "1 1 1\n" * 3 + "TIS 1\n" + "1 1 1\n" * 3 + "DataEnd")
-        read(tmp_path, doubled)
+    turned = "TIS 1\n" + "1 1 1\n" * 3 + "TIS 1\n" + "1 1 1\n" * 3 + "DataEnd"
+    brushed = containers.zemax().replace("SampleRotation 1\n0", "SampleRotation 2\n0 90").replace("DataEnd", turned)
+    found = read(tmp_path, brushed).findings
+    assert [finding.severity for finding in found if finding.code == "anisotropic"] == ["outside"]
+    assert "averaged-over-rotation" in codes(read(tmp_path, brushed, average_phi_i=True))
 
 
 def test_zemax_total_scatter_is_what_the_file_states(data):

@@ -5,8 +5,8 @@ from math import atan2, cos, floor, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from brdfguide import formats
-from brdfguide.errors import InputError
+from brdfguide import examine, formats
+from brdfguide.errors import InputError, NoAnswer
 from brdfguide.formats import _tensor, rgl
 from brdfguide.formats._base import Source
 from brdfguide.geometry import Geometry, rows
@@ -89,7 +89,7 @@ def compare(fields, seed, count, rotation=None):
     channels = ours.shape[1]
     densities = {p: normalised(fields["vndf"][p]) for p in np.ndindex(fields["vndf"].shape[:2])}
     theirs = np.array([[by_hand(fields, densities, light, view, c) for c in (0, channels - 1)] for light, view in zip(lights, views)])
-    scale = np.abs(theirs).max(axis=1, keepdims=True)
+    scale = np.maximum(np.abs(theirs).max(axis=1, keepdims=True), 1e-9)
     return float(np.max(np.abs(ours[:, [0, channels - 1]] - theirs) / scale))
 
 
@@ -126,12 +126,15 @@ def test_tables_become_directions_that_crowd_toward_the_mirror(data, name):
     assert measurement.channels == ("R", "G", "B")
 
 
-def test_anisotropic_table_is_refused_and_averaged_on_request(tmp_path):
+def test_anisotropic_table_is_outside_the_guide_and_averaged_on_request(tmp_path):
     path = tmp_path / "brushed.bsdf"
     fields = rgl_fields(8, phis=9)
     path.write_bytes(tensor_file(**fields))
+    with pytest.raises(NoAnswer, match="anisotropic: 9 rotations of the sample differ by .* --average-phi-i, which takes the mean, answers all the same"):
+        examine.prepared(formats.read(path))
+    examine.prepared(formats.read(path, average_phi_i=True))
     with pytest.raises(InputError, match="anisotropic: 9 azimuths .* --average-phi-i takes their mean"):
-        formats.read(path)
+        formats.function(path)
     measurement = formats.read(path, average_phi_i=True)
     geom = measurement.geom
     turns = np.degrees(np.linspace(-np.pi, np.pi, 9))
