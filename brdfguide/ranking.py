@@ -6,7 +6,7 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from . import sampling, uncertainty
+from . import costs, sampling, uncertainty
 from .fitting import Fit
 from .measurement import Finding, Measurement
 from .misfit import METRICS, evaluate
@@ -31,6 +31,7 @@ class Row:
     behind: float  # rms ln behind the best
     behind_se: float
     ns_per_sample: float
+    work: float  # operations in the time of one addition: orders equals, the same in every run
     on_front: bool  # no other is better in both error and time
     held_out: object = None  # validation.HeldOut
     growth: dict | None = None
@@ -51,7 +52,7 @@ class Ranking:
 
 
 def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> Ranking:
-    """Fits in order of error; ties are broken by fewest parameters, then by run time.
+    """Fits in order of error; ties are broken by fewest parameters, then by operations.
 
     The difference from the best is taken pointwise, and its standard error over segments of neighbouring
     directions. Two models whose predictions differ by less than the noise of a single value also tie.
@@ -65,7 +66,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     best = residuals[order[0]]
     noise = noise_of(best, compared)
     segments, bins = segments_of(compared), incidence_bins(measurement)
-    times = time_all(fits, measurement)
+    times, works = time_all(fits, measurement), [work_of(fit, compared) for fit in fits]
     rows = []
     for place, index in enumerate(order):
         fit = fits[index]
@@ -75,7 +76,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
         front = not any(_dominates(errors[other], times[other], errors[index], times[index], metric) for other in order)
         rows.append(Row(
             fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, *bins), errors[index],
-            behind, error, times[index], front, warnings=fit.warnings,
+            behind, error, times[index], works[index], front, warnings=fit.warnings,
         ))  # fmt: skip
     rows = _with_ranks(rows)
     recommended, because = recommend(rows)
@@ -180,6 +181,13 @@ def time_all(fits: Sequence[Fit], measurement: Measurement) -> list[float]:
     return least
 
 
+def work_of(fit: Fit, measurement: Measurement) -> float:
+    """Operations for one direction and channel."""
+    geom = measurement.geom[:64].at(np.atleast_1d(measurement.geom.wavelength)[:1])
+    values = {key: value[0] if np.ndim(value) else value for key, value in fit.values.items()}
+    return costs.work(costs.operations(lambda each: fit.model(each, values), geom))
+
+
 def _dominates(error, time, other_error, other_time, metric: str) -> bool:
     return error[metric] <= other_error[metric] and time <= other_time and (error[metric] < other_error[metric] or time < other_time)
 
@@ -202,14 +210,14 @@ def recommend(rows: Sequence[Row]) -> tuple[Row, str]:
     trusted = [row for row in rows if not any(warning.code in DISTRUSTED for warning in row.warnings)] or list(rows)
     best = trusted[0]
     equal = [row for row in trusted if row.tied] if best.tied else [best]
-    pick = min(equal, key=lambda row: (row.fit.free, row.ns_per_sample))
+    pick = min(equal, key=lambda row: (row.fit.free, row.work))
     passed = [row for row in rows[: rows.index(best)]]
     aside = f"; {', '.join(row.fit.name for row in passed)} {'has' if len(passed) == 1 else 'have'} less error but cannot be trusted" if passed else ""
     if pick is not best:
         reasons = []
         if pick.fit.free < best.fit.free:
             reasons.append(f"has {best.fit.free - pick.fit.free} fewer parameters")
-        if pick.ns_per_sample < 0.8 * best.ns_per_sample:
+        if pick.work < 0.8 * best.work:
             reasons.append("is cheaper to evaluate")
         return pick, f"cannot be told from {best.fit.name} by these data, and {' and '.join(reasons) or 'comes first in the list'}{aside}"
     if len(equal) > 1:

@@ -1,0 +1,58 @@
+"""Every script in examples/ runs as printed, and what the README shows is what the program says."""
+
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+from .conftest import ROOT
+
+SCRIPTS = sorted((ROOT / "examples").glob("*.sh"))
+README = (ROOT / "README.md").read_text()
+
+
+@pytest.fixture(scope="module")
+def shell(tmp_path_factory):
+    """Runs a shell line from the project's root with `brdfguide` on the path."""
+    folder = tmp_path_factory.mktemp("bin")
+    command = folder / "brdfguide"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m brdfguide "$@"\n')
+    command.chmod(0o755)
+    environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ['PATH']}", "TMPDIR": str(folder), "PYTHONPATH": str(ROOT)}
+
+    def run(line):
+        return subprocess.run(["sh", "-c", line], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=180)
+
+    return run
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
+def test_example_runs(script, shell):
+    run = shell(f"sh {script.relative_to(ROOT)}")
+    assert run.returncode == 0, run.stderr
+    assert run.stdout and "Traceback" not in run.stderr
+
+
+def transcripts():
+    """(command, what the README prints under it) of every console block that starts with a prompt."""
+    for block in re.findall(r"```console\n(.*?)```", README, re.S):
+        for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+            command, _, shown = part.partition("\n")
+            yield command, shown.strip("\n")
+
+
+@pytest.mark.parametrize("command, shown", [pytest.param(*each, id=each[0][:60]) for each in transcripts()])
+def test_readme_prints_what_it_says(command, shown, shell):
+    """Line by line; `...` stands for what was left out, and digits of times may differ."""
+    run = shell(command)
+    assert run.returncode == 0, run.stderr
+    said = [line.rstrip() for line in run.stdout.splitlines()]
+    place = 0
+    for line in (line.rstrip() for line in shown.splitlines()):
+        if line == "...":
+            continue
+        found = next((at for at in range(place, len(said)) if said[at] == line), None)
+        assert found is not None, f"the README shows {line!r}; the program says\n{run.stdout}"
+        place = found + 1
