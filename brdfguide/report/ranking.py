@@ -53,8 +53,8 @@ def number(value, form: str) -> str:
 
 
 def parameters_text(row: dict) -> str:
-    """What was fitted, shapes first, with standard errors; a range and the median error for values that channels have for themselves."""
-    entries = {key: entry for key, entry in row["parameters"].items() if entry.get("fitted") or entry.get("derived")}
+    """What was fitted, shapes first, with standard errors, and lengths that follow; a range where channels have their own."""
+    entries = {key: entry for key, entry in row["parameters"].items() if entry.get("fitted") or (entry.get("derived") and entry["unit"])}
     short = {key: key.rpartition(".")[2] for key in entries}
     names = list(short.values())
     ordered = sorted(entries, key=lambda key: hasattr(entries[key]["value"], "__len__"))
