@@ -84,6 +84,9 @@ def test_eq_2_for_metals_is_an_equivalent_index_of_8_to_108_and_its_curve_falls_
         c = cos(radians(angle))
         assert float(optics.fresnel(c, 0.958, 6.69)) == pytest.approx(metal, abs=5e-4)
         assert float(optics.fresnel(c, 48.7, 0.0)) == pytest.approx(stand_in, abs=5e-4)
+    at_88 = cos(radians(88))
+    assert float(optics.fresnel(at_88, 48.7)) == pytest.approx(0.532, abs=5e-4)
+    assert float(optics.fresnel(at_88, 1.5)) == pytest.approx(0.819, abs=5e-4)
     with pytest.raises(optics.InputError):
         optics.index_from_f0(1.0)
 
