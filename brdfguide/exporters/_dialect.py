@@ -86,7 +86,7 @@ def _finite(law: str, v: dict, wavelength: float) -> str:
             return call(v["albedo"], v["spread"], of="ci, cr, p")
         case "phong" | "phong-lewis" | "blinn":
             return call(v["ks"], v["exponent"])
-        case "ward" | "ward-gmd":
+        case "ward" | "ward-duer" | "ward-gmd":
             return call(v["rho_s"], v["alpha"])
         case "lafortune":
             xy, z = float(c_xy(v["tilt"])), float(c_z(v["tilt"]))

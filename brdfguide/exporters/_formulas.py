@@ -49,6 +49,7 @@ FORMULAS = (
     ("lafortune", "ci, cr, q, ks, n, c1, c2, c3", "lafortune2(ks, n, -(c1 + 0.5 * c2 * off2(ci, cr, q) + c3 * ci * cr))"),
     # Gaussian slopes
     ("ward", "ci, cr, q, rho, a", "rho * exp(-tan2h(ci, cr, q) / (a * a)) / (4.0 * PI * a * a * sqrt(ci * cr))"),
+    ("ward_duer", "ci, cr, q, rho, a", "rho * exp(-tan2h(ci, cr, q) / (a * a)) / (4.0 * PI * a * a * ci * cr)"),
     ("ward_gmd", "ci, cr, q, rho, a", "rho * exp(-tan2h(ci, cr, q) / (a * a)) / (PI * a * a * cos2h(ci, cr, q) * sq(ci + cr))"),
     ("gaussian", "ci, cr, q, a", "choose(80.0 * a * a - tan2h(ci, cr, q), exp(-least(tan2h(ci, cr, q) / (a * a), 80.0)) / (PI * a * a * sq(cos2h(ci, cr, q))), 0.0)"),
     ("cook_torrance", "ci, cr, q, a, n, k", "fresnel(cosd(ci, cr, q), n, k) * gaussian(ci, cr, q, a)"

@@ -9,7 +9,7 @@ from brdfguide.geometry import Geometry, rows
 
 RGB_UM = np.array([0.65, 0.55, 0.45])
 BANDS = np.arange(0.40, 0.701, 0.05)
-LOBES = ("phong", "phong-lewis", "blinn", "ward", "ward-gmd", "lafortune", "cook-torrance", "beckmann", "ggx", "he-torrance", "mirror")
+LOBES = ("phong", "phong-lewis", "blinn", "ward", "ward-duer", "ward-gmd", "lafortune", "cook-torrance", "beckmann", "ggx", "he-torrance", "mirror")
 BODIES = ("lambertian", "coupled", "oren-nayar")
 
 
@@ -37,6 +37,7 @@ EVERY_LAW = {
     "phong-lewis": surface("lambertian+phong-lewis", lambertian__albedo=0.3, phong_lewis__exponent=40.0),
     "blinn": surface("lambertian+blinn", lambertian__albedo=0.1),
     "ward": coloured("lambertian+ward", lambertian__albedo=[0.5, 0.2, 0.1], ward__rho_s=0.06, ward__alpha=0.15),
+    "ward-duer": surface("lambertian+ward-duer", lambertian__albedo=0.2, ward_duer__alpha=0.2),
     "ward-gmd": coloured("lambertian+ward-gmd", lambertian__albedo=[0.5, 0.2, 0.1], ward_gmd__rho_s=0.06, ward_gmd__alpha=0.15),
     "lafortune": surface("lambertian+lafortune", lambertian__albedo=0.2, lafortune__tilt=0.9, lafortune__exponent=30.0),
     "cook-torrance": surface("lambertian+cook-torrance", lambertian__albedo=0.4, cook_torrance__alpha=0.25),
@@ -91,3 +92,16 @@ def vectors(geom: Geometry) -> tuple[np.ndarray, np.ndarray]:
     light = np.stack((geom.sin_i[:, 0], np.zeros(len(geom)), geom.cos_i[:, 0]), axis=-1)
     view = np.stack((geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi), geom.cos_r[:, 0]), axis=-1)
     return light, view
+
+
+def all_surfaces() -> dict[str, Surface]:
+    """One of each law, and the first candidate of five described materials."""
+    from brdfguide import exporters
+    from brdfguide.cli._surface import described
+
+    return EVERY_LAW | {name: exporters.surface_of(described(name), name) for name in MATERIALS}
+
+
+@pytest.fixture(scope="session")
+def surfaces() -> dict[str, Surface]:
+    return all_surfaces()

@@ -1,0 +1,121 @@
+"""Mitsuba loads every XML, dict and table, and evaluates them at 1000 directions as the statement says."""
+
+import numpy as np
+import pytest
+
+from brdfguide import exporters
+from brdfguide.exporters import _mitsuba
+from brdfguide.exporters._base import Refused
+from brdfguide.exporters._blurred import blurred
+from brdfguide.exporters._choice import choose
+
+from .conftest import EVERY_LAW, MATERIALS, directions, vectors
+
+mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba: the reader of these exports")
+pytestmark = [pytest.mark.validate, pytest.mark.filterwarnings("ignore")]
+NAMES = [*EVERY_LAW, *MATERIALS]
+
+
+@pytest.fixture(autouse=True)
+def variant():
+    mitsuba.set_variant("scalar_rgb")
+
+
+def evaluated(bsdf, geom, wavelengths=()) -> np.ndarray:
+    """Mitsuba's BRDF: its `eval` is BRDF times the cosine of the second direction."""
+    light, view = vectors(geom)
+    si = mitsuba.SurfaceInteraction3f()
+    si.wavelengths = list(wavelengths)
+    values = []
+    for i, r in zip(light, view):
+        si.wi = i
+        values.append(np.array(bsdf.eval(mitsuba.BSDFContext(), si, r)) / r[2])
+    return np.array(values)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_xml_and_dict_load_and_evaluate_as_stated(name, surfaces):
+    surface, geom = surfaces[name], directions()
+    made, twin = exporters.export("mitsuba", surface), exporters.export("mitsuba-dict", surface)
+    namespace = {}
+    exec(twin.content, namespace)  # noqa: S102  our own file, as its user would import it
+    got = evaluated(mitsuba.load_string(made.content), geom)
+    np.testing.assert_allclose(evaluated(mitsuba.load_dict(namespace["MATERIAL"]), geom), got, rtol=1e-5, atol=1e-9)
+    if not _mitsuba.has_finite(surface):
+        return
+    if made.statement.status == "exact":
+        np.testing.assert_allclose(got, surface.rgb(geom), rtol=1e-4)
+    laws = _mitsuba._candidates(surface)
+    choice = choose(surface, None, laws)
+    law = laws[choice.name]
+    ours = np.broadcast_to(law.at(geom, {key: value for key, value in choice.values.items() if key not in law.fixed}), got.shape)
+    np.testing.assert_allclose(got, ours, rtol=1e-4, atol=1e-6)  # so the residual, taken of our law, is Mitsuba's
+
+
+@pytest.mark.parametrize("name", ["ward", "paint", "phong", "rough-plastic"])
+def test_stated_residual_is_what_mitsuba_shows(name, surfaces):
+    from brdfguide.exporters._directions import chosen, rms_ln
+
+    surface = surfaces[name]
+    made = exporters.export("mitsuba", surface)
+    geom, wanted, _ = chosen(surface, None)
+    got = evaluated(mitsuba.load_string(made.content), geom)
+    assert rms_ln(got, wanted) == pytest.approx(made.statement.rms_ln, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_table_agrees_to_one_percent_off_the_peak(name, surfaces, tmp_path):
+    surface, geom = surfaces[name], directions()
+    made = exporters.export("rgl", surface)
+    (tmp_path / "table.bsdf").write_bytes(made.content)
+    got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom)
+    wanted = np.maximum(blurred(surface)[0].rgb(geom), 0)
+    counted = (wanted > 1e-3) & (wanted < 0.3 * wanted.max())
+    error = np.abs(got[counted] / wanted[counted] - 1)
+    assert np.quantile(error, 0.95) < 0.01 and np.quantile(error, 0.99) < 0.03, (np.quantile(error, [0.5, 0.95, 0.99]), made.statement.rms_ln)
+
+
+def test_spectral_table_agrees_at_its_wavelengths(tmp_path):
+    from .conftest import Surface, models
+
+    bands = np.array([0.45, 0.5, 0.55, 0.6, 0.65, 0.7])
+    values = {"lambertian.albedo": np.linspace(0.1, 0.8, 6), "he-torrance.sigma": 0.6, "he-torrance.slope": 0.1}
+    surface = Surface(models.get("lambertian+he-torrance"), values, tuple(f"{1e3 * um:.0f}nm" for um in bands), bands)
+    (tmp_path / "table.bsdf").write_bytes(exporters.export("rgl-spectral", surface).content)
+    mitsuba.set_variant("scalar_spectral")
+    geom = directions(300)
+    got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom, [450, 550, 600, 700])
+    wanted = blurred(surface)[0].spectral(geom)[:, [0, 2, 3, 5]]
+    assert np.quantile(np.abs(got / wanted - 1), 0.95) < 0.01
+
+
+@pytest.mark.parametrize("name", ["ggx", "he-torrance", "phong"])
+def test_table_is_importance_sampled(name, surfaces, tmp_path):
+    """Sampled weights average to the albedo of a fine quadrature, with a spread far below uniform sampling's."""
+    (tmp_path / "table.bsdf").write_bytes(exporters.export("rgl", surfaces[name]).content)
+    bsdf = mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")})
+    si = mitsuba.SurfaceInteraction3f()
+    si.wavelengths = []
+    si.wi = [np.sin(0.6), 0, np.cos(0.6)]
+    rng = np.random.default_rng(3)
+    weights = np.array([np.array(bsdf.sample(mitsuba.BSDFContext(), si, 0.5, rng.random(2))[1])[1] for _ in range(4000)])
+    u, v = (np.arange(400) + 0.5) / 400, (np.arange(800) + 0.5) / 800
+    theta, phi = np.degrees(np.arccos(np.sqrt(1 - u)))[:, None], (360 * v)[None, :]
+    from brdfguide.geometry import Geometry, rows
+
+    geom = rows(Geometry.from_degrees(np.degrees(0.6), 0.0, *(each.ravel() for each in np.broadcast_arrays(theta, phi))))
+    albedo = np.pi * np.mean(blurred(surfaces[name])[0].rgb(geom)[:, 1])
+    assert np.mean(weights) == pytest.approx(albedo, rel=0.04)
+    assert np.std(weights) < 1.0 * albedo
+
+
+def test_table_refused_by_the_other_kind_of_variant(tmp_path):
+    """Why there are two targets: a file with wavelengths does not load in an RGB variant."""
+    (tmp_path / "table.bsdf").write_bytes(exporters.export("rgl-spectral", EVERY_LAW["coupled"]).content)
+    with pytest.raises(RuntimeError, match="spectral"):
+        mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")})
+
+
+def test_polished_body_is_refused_where_it_must(surfaces):
+    with pytest.raises(Refused):
+        exporters.export("radiance", surfaces["polish"])

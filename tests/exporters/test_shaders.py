@@ -1,0 +1,113 @@
+"""The one text of every law: in double precision against the models, compiled as C floats, and through glslang."""
+
+import ctypes
+import math
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from brdfguide import exporters, models
+from brdfguide.exporters import _dialect, _shader
+from brdfguide.exporters._formulas import AFTER_SERIES, FORMULAS, HE_TORRANCE
+
+from .conftest import EVERY_LAW, MATERIALS, coloured, directions, surface
+
+CASES = EVERY_LAW | {
+    "smooth he-torrance": surface("he-torrance", he_torrance__sigma=0.05, he_torrance__slope=0.05),
+    "rough he-torrance": surface("he-torrance", he_torrance__sigma=20.0, he_torrance__slope=0.3, he_torrance__k=3.0),
+    "narrow phong-lewis": surface("phong-lewis", phong_lewis__exponent=1e5),
+    "narrow ggx": surface("ggx", ggx__alpha=1e-3, ggx__n=1.05),
+    "retro lafortune": surface("lafortune", lafortune__tilt=-0.6),
+    "steep oren-nayar": coloured("oren-nayar", oren_nayar__albedo=[0.1, 0.5, 0.9], oren_nayar__spread=1.1),
+    "absorbing beckmann": surface("beckmann", beckmann__alpha=0.9, beckmann__n=1.3, beckmann__k=7.0),
+}
+
+
+def python_formulas() -> dict:
+    """The formulas as Python functions of doubles."""
+    names = {name: getattr(math, name) for name in ("log", "sqrt", "acos", "floor", "ceil")}
+    names |= {"exp": lambda x: math.exp(min(x, 700.0)), "PI": math.pi, "choose": lambda c, a, b: a if c > 0 else b}
+
+    def total(g, y, u, top, w, high):
+        if w < 7:
+            count = math.ceil(top + 12 * w + 14 - names["first_order"](top, w))
+            return sum(names["order"](i, g, y, u, top, w, high) for i in range(min(192, count)))
+        return sum(names["trapezoid"](-8.4 + 0.6 * k, g, y, u, top, w, high) for k in range(29))
+
+    for name, arguments, text in (*FORMULAS, *HE_TORRANCE, ("total", "", ""), *AFTER_SERIES):
+        if name == "total":
+            names["total"] = total
+            continue
+        exec(f"def {name.replace('lambda', 'lambda_', name == 'lambda')}({arguments}): return {text.replace('lambda(', 'lambda_(')}", names)  # noqa: S102
+    return names
+
+
+def arguments(geom):
+    return {"ci": geom.cos_i[:, 0], "cr": geom.cos_r[:, 0], "q": geom.vxy2[:, 0], "p": geom.dot_xy[:, 0]}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_text_equals_the_model_in_double_precision(name):
+    """Within what its erfc allows, 1.5e-7."""
+    case, geom = CASES[name], directions(150, most=88.0)
+    names = python_formulas()
+    given = arguments(geom)
+    for column, text in enumerate(_dialect.colours(case)):
+        code = compile(text.replace("lambda(", "lambda_("), name, "eval")
+        got = [eval(code, names, {key: float(values[row]) for key, values in given.items()}) for row in range(len(geom))]  # noqa: S307
+        np.testing.assert_allclose(got, case.rgb(geom)[:, column], rtol=2e-6, atol=1e-12)
+
+
+def test_every_law_has_a_formula():
+    for name in models.names():
+        case = surface(name)
+        assert _dialect.colours(case) and _dialect.mirror_colours(case), name
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_compiled_in_float_it_agrees_to_a_few_ulp(name, tmp_path):
+    """The body of the GLSL and OSL functions, as C floats: no NaN, no overflow, 1e-4 of the model."""
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    if compiler is None:
+        pytest.skip("no C compiler to run the shader's text with")
+    case, geom = CASES[name], directions(4000, seed=2, most=89.0)
+    expressions = _dialect.colours(case)
+    macros = "".join(f"#define {word} {word}f\n" for word in ("exp", "log", "sqrt", "acos", "floor", "ceil"))
+    body = "\n".join(f"    out[3 * j + {c}] = {_dialect.prefixed(text)};" for c, text in enumerate(expressions))
+    source = f"#include <math.h>\n{macros}{_shader.functions(expressions)}\nvoid run(int n, const float *a, float *out) {{\n"
+    source += f"  for (int j = 0; j < n; j++) {{\n    float ci = a[4 * j], cr = a[4 * j + 1], q = a[4 * j + 2], p = a[4 * j + 3];\n{body}\n  }}\n}}\n"
+    source = re.sub(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+)", r"\1f", source)
+    (tmp_path / "law.c").write_text(source)
+    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-o", str(tmp_path / "law.so"), str(tmp_path / "law.c"), "-lm"], check=True)
+    given = np.ascontiguousarray(np.stack(list(arguments(geom).values()), axis=-1), np.float32)
+    out = np.zeros((len(geom), 3), np.float32)
+    pointer = lambda array: array.ctypes.data_as(ctypes.c_void_p)  # noqa: E731
+    ctypes.CDLL(str(tmp_path / "law.so")).run(len(geom), pointer(given), pointer(out))
+    wanted = case.rgb(geom)[:, : len(expressions)]
+    got = out[:, : len(expressions)]
+    assert np.all(np.isfinite(got))
+    np.testing.assert_allclose(got, wanted, rtol=1e-4, atol=3e-6 * wanted.max())
+
+
+@pytest.mark.validate
+@pytest.mark.parametrize("name", [*EVERY_LAW, *MATERIALS])
+def test_glsl_compiles(name, surfaces, tmp_path):
+    if shutil.which("glslangValidator") is None:
+        pytest.skip("apt-get install glslang-tools: compiles the shaders")
+    text = exporters.export("glsl", surfaces[name]).content
+    own = re.search(r"vec3 (\w+)_brdf", text)[1]
+    main = f"in vec3 L; in vec3 V; out vec4 o; void main() {{ o = vec4({own}_brdf(L, V, vec3(0, 0, 1)) + {own}_mirror(V.z), 1); }}"
+    for version in ("#version 130", "#version 300 es\nprecision highp float;"):
+        (tmp_path / "law.frag").write_text(f"{version}\n{text}\n{main}\n")
+        run = subprocess.run(["glslangValidator", str(tmp_path / "law.frag")], capture_output=True, text=True)
+        assert run.returncode == 0, run.stdout
+
+
+def test_osl_and_glsl_hold_the_same_functions():
+    glsl, osl = (exporters.export(target, EVERY_LAW["he-torrance"]).content for target in ("glsl", "osl"))
+    functions = lambda text: re.findall(r"^float bg_.*$", text, flags=re.M)  # noqa: E731
+    assert functions(glsl) == functions(osl) and len(functions(glsl)) > 30
+    assert osl.count("{") == osl.count("}") and osl.count("(") == osl.count(")")
