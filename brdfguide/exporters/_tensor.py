@@ -21,7 +21,8 @@ from ..errors import NoAnswer
 from ..geometry import Geometry, rows
 from ._directions import rms_ln
 
-THETA_I = np.radians(np.concatenate((np.arange(0.0, 80.0, 2.0), np.arange(80.0, 88.0, 1.0), [88.0, 88.5, 89.0, 89.5, 89.9])))
+# closer toward grazing; off the round angles at which the residual is taken, so that this sees what interpolation costs
+THETA_I = np.radians(np.concatenate(([0.0], np.arange(0.75, 80.0, 1.5), np.arange(80.6, 88.0, 0.8), [88.4, 88.9, 89.3, 89.6, 89.9])))
 FINE = 1024  # nodes of ndf and sigma
 LEAST = 1e-12  # 1/sr: below it float32 tables hold nothing
 FAINT = 1e-6  # least ndf and sigma, of their greatest

