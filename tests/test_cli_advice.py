@@ -95,7 +95,7 @@ def test_with_a_measurement_the_fit_decides_and_the_eye_is_compared(tmp_path):
     (tmp_path / "it.yaml").write_text("kind: metal\nfinish: mirror\n")
     found = answer("recommend", str(tmp_path / "it.yaml"), "examples/rough_plastic.csv", "--models", "lambertian+ggx,lambertian+ward", "-q")
     assert found["schema"] == "brdfguide/recommend/1" and found["ranking"] and found["advice"]
-    assert found["recommended"] in [each["model"] for each in found["ranking"]]
+    assert found["recommended"] in [each["candidate"] for each in found["ranking"]]
     assert {each["code"] for each in found["disagreements"]} >= {"kind-disagrees"} or found["measured_verdict"]["kind"] == "cannot tell from this"
 
 
@@ -103,7 +103,7 @@ def test_measurements_named_in_a_description_are_read_beside_it(tmp_path):
     (tmp_path / "scan.csv").write_text((ROOT / "examples" / "rough_plastic.csv").read_text())
     (tmp_path / "it.yaml").write_text("kind: dielectric\nfinish: satin\nmeasurements: scan.csv\n")
     found = answer("recommend", str(tmp_path / "it.yaml"), "--models", "lambertian+ggx", "-q")
-    assert found["ranking"][0]["model"] == "lambertian+ggx" and found["recommended_by_guidelines"] == "lambertian+ggx"
+    assert found["ranking"][0]["candidate"] == "lambertian+ggx" and found["recommended_by_guidelines"] == "lambertian+ggx"
 
 
 def test_one_measurement_belongs_to_one_description():
