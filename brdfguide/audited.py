@@ -9,7 +9,8 @@ from .measurement import Finding
 from .saved import Saved
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 75.0, 80.0, *np.arange(82.0, 90.0), 89.5, 89.9, 89.99)
-ENERGY = 1.001  # reflectance above which a surface gains energy; the quadrature is right to 3e-4
+ENERGY = 1.002  # reflectance above which a surface gains energy; the quadrature is right to 1e-3
+COARSE = 2 * hemisphere.STEP  # between nodes: right to 1e-3 for lobes wider than 0.1°
 NARROW = 2.0  # full width [deg] below which blind sampling of directions misses a lobe
 RIDGE = 1e3  # condition number beyond which single parameters mean little
 
@@ -25,7 +26,7 @@ def audit(saved: Saved):
 
 def _energy(saved):
     """Where more comes out than goes in, mirror reflection included."""
-    dhr = hemisphere.dhr(saved.model, ANGLES, saved.values, saved.wavelength)
+    dhr = hemisphere.dhr(saved.model, ANGLES, saved.values, saved.wavelength, step=COARSE)
     if saved.model.has_mirror:
         dhr = dhr + saved.model.mirror(rows(in_plane(np.array(ANGLES), 0.0)).at(saved.wavelength), saved.values)
     most = dhr.max(axis=1)
@@ -79,9 +80,10 @@ def _spike(saved):
 def _bounds(saved):
     for key, p in saved.model.parameters.items():
         value = np.atleast_1d(saved.values.get(key, p.default))
-        if p.free and np.any((value <= p.low) | (value >= p.high)) and not (p.linear and np.all(value > p.low)):
-            text = f"{key} stands at its bound {p.low if np.any(value <= p.low) else p.high:g}"
-            yield Finding(f"at-bound:{key}", text, "note", "the law was stretched to its limit here")
+        for bound, at in ((p.low, value <= p.low), (p.high, value >= p.high)):
+            if p.free and np.any(at) and not (p.linear and bound == p.low):  # an amplitude of 0 only says: not needed
+                where = f" in {np.count_nonzero(at)} of {value.size} channels" if value.size > 1 else ""
+                yield Finding(f"at-bound:{key}", f"{key} stands at its bound {bound:g}{where}", "note", "the law was stretched to its limit here")
 
 
 def _ridge(saved):
