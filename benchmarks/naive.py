@@ -109,6 +109,19 @@ def oren_nayar(d, albedo, spread):
     return once + 0.17 * albedo**2 / pi * s2 / (s2 + 0.13) * (1 - c * (2 * b / pi) ** 2)
 
 
+def eon(d, albedo, roughness):
+    r, c1, c2 = roughness, 1 / 2 - 2 / (3 * pi), 2 / 3 - 28 / (15 * pi)
+    s = d["i"][0] * d["r"][0] + d["i"][1] * d["r"][1]
+    t = np.where(s > 0, np.maximum(d["cos_i"], d["cos_r"]), 1.0)
+    a = 1 / (1 + c1 * r)
+    def kept(theta):  # noqa: E306
+        g = np.sin(theta) * (theta - np.sin(theta) * np.cos(theta)) + 2 / 3 * (np.tan(theta) * (1 - np.sin(theta) ** 3) - np.sin(theta))
+        return a * (1 + r * g / pi)
+    mean = a * (1 + c2 * r)
+    again = albedo**2 * mean / (1 - albedo * (1 - mean))
+    return albedo / pi * a * (1 + r * s / t) + again / pi * (1 - kept(d["theta_i"])) * (1 - kept(d["theta_r"])) / (1 - mean)
+
+
 def he_torrance(d, sigma, slope, n, k, scale, wavelength=0.55, terms=150):
     """The sum term by term, as many as the default roughness needs; erfc and Lambert's W from SciPy."""
     from scipy.special import erfc, lambertw

@@ -105,6 +105,26 @@ def oren_nayar(p, albedo, spread):
     return once + mpf("0.17") * albedo**2 / pi * s2 / (s2 + mpf("0.13")) * (1 - c * (2 * b / pi) ** 2)
 
 
+def eon(p, albedo, roughness):
+    r, c1, c2 = roughness, mpf(1) / 2 - 2 / (3 * pi), mpf(2) / 3 - 28 / (15 * pi)
+    s = p.i[0] * p.r[0] + p.i[1] * p.r[1]
+    t = max(p.cos_i, p.cos_r) if s > 0 else mpf(1)
+    a = 1 / (1 + c1 * r)
+
+    def kept(theta):
+        g = sin(theta) * (theta - sin(theta) * cos(theta)) + mpf(2) / 3 * (tan(theta) * (1 - sin(theta) ** 3) - sin(theta))
+        return a * (1 + r * g / pi)
+
+    mean = a * (1 + c2 * r)
+    again = albedo**2 * mean / (1 - albedo * (1 - mean))
+    more = again / pi * (1 - kept(p.theta_i)) * (1 - kept(p.theta_r)) / (1 - mean) if r > mpf(10) ** -30 else mpf(0)
+    return albedo / pi * a * (1 + r * s / t) + more
+
+
+def coupled(p, albedo):
+    return albedo * 21 / (20 * pi) * (1 - (1 - p.cos_i) ** 5) * (1 - (1 - p.cos_r) ** 5)
+
+
 def mirror(p, n, k, sigma):
     return mpf(0)
 
@@ -112,7 +132,7 @@ def mirror(p, n, k, sigma):
 LAWS = {
     "lambertian": lambertian, "phong": phong, "phong-lewis": phong_lewis, "blinn": blinn, "ward": ward,
     "ward-duer": ward_duer, "ward-gmd": ward_gmd, "lafortune": lafortune, "cook-torrance": cook_torrance, "beckmann": beckmann, "ggx": ggx,
-    "oren-nayar": oren_nayar, "mirror": mirror,
+    "oren-nayar": oren_nayar, "eon": eon, "coupled": coupled, "mirror": mirror,
 }  # fmt: skip
 
 
