@@ -45,7 +45,7 @@ def recommend(
         )
         with_measurements(answers, measured, names, scene, (plot, report), anyway, explain, no_timing, json, quiet, export_fit)
         return
-    documents = [advice.document(each, not no_timing) for each in answers]
+    documents = [advice.document(each, not no_timing, explain) for each in answers]
     texts = [advice.text(each, explain, not no_timing) for each in answers]
     if scene:
         texts = [text + of_answer(scene, answer, document, not no_timing, quiet) for text, answer, document in zip(texts, answers, documents)]

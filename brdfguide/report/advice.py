@@ -15,7 +15,7 @@ SHOWN = {
 }  # fmt: skip
 
 
-def document(found: Recommendation, timing: bool = True) -> dict:
+def document(found: Recommendation, timing: bool = True, explain: bool = True) -> dict:
     """`brdfguide recommend --json` of one description (CLI contract)."""
     return {
         "schema": "brdfguide/recommend/1",
@@ -30,7 +30,7 @@ def document(found: Recommendation, timing: bool = True) -> dict:
             {"rule": a.rule, "section": a.section, "says": a.says, "because": a.because, "sets": sorted(a.sets), "guess": a.guess, "conflict": a.conflict}
             for a in found.advice
         ],
-        "silent": [{"rule": each.__name__, "section": each.section} for each in found.silent],
+        "silent": [{"rule": each.__name__, "section": each.section} for each in found.silent] if explain else [],
         "conflicts": [{"code": a.rule, "text": f"{a.says} ({a.because})"} for a in found.conflicts],
         "left_out": [{"term": name, "why": why} for name, why in found.left_out.items()],
         "unused": [{"observation": key, "why": why} for key, why in found.unused],
