@@ -75,8 +75,14 @@ def fit(
         show_ranking(plot, report, result, ranked, measurement, data)
     best = ranked.recommended.fit
     failed = export_all(export, best.model, best.values, measurement.channels, measurement.geom.wavelength, measurement.geom, data[0].stem, max_export_error, quiet)
-    print_json(result) if json else print(ranking.ranking_text(result, notes=not quiet) + in_scene)
-    if not json and on_terminal():
-        print("\n" + sketch_of(ranked, measurement))
+    if json:
+        print_json(result)
+    elif on_terminal():
+        from ..report import terminal
+
+        terminal.show(result, sketch_of(ranked, measurement), not quiet)
+        print(in_scene, end="")
+    else:
+        print(ranking.ranking_text(result, notes=not quiet) + in_scene)
     if failed:
         raise failed
