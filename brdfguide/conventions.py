@@ -9,6 +9,7 @@ from .measurement import Finding, Measurement
 
 SIDES = ("positive", "negative", "phi=180", "phi=0")
 NEAR_PLANE_DEG = 20.0  # how far from the plane of incidence a direction still counts for one side
+BLOCKED_DEG = 6.0  # a lamp in front of the detector covers at least this
 STEEP_DEG = 8.0  # below this incidence the two sides are not told apart
 
 
@@ -110,6 +111,8 @@ def retro_distance_deg(geom: Geometry):
 
 def side_of(geom: Geometry, brdf) -> Side:
     """Judges the mirror side from the values alone; `geom` holds the directions as the file is read by default."""
+    if blocked := _blocked(geom, brdf):
+        return blocked
     ahead, behind, angles, beyond = _peaks(geom, brdf)
     if not len(angles):
         return Side("untold", "no incidence is far enough from the normal to tell the mirror side", False)
@@ -135,6 +138,25 @@ def side_of(geom: Geometry, brdf) -> Side:
     if growth < -0.1:
         return Side("retro", f"brightest toward the source, {times} times the mirror side, and weaker toward grazing", largest < -np.log(2), **numbers)
     return Side("untold", f"one side is {times} times brighter but does not change toward grazing", False, **numbers)
+
+
+def _blocked(geom: Geometry, brdf) -> Side | None:
+    """Values missing around one of the two directions only: there stood the lamp in front of the detector, or the other way round."""
+    with np.errstate(invalid="ignore"):
+        lost = ~np.any(np.isfinite(brdf) & (brdf > 0), axis=1)
+    if not np.any(lost):
+        return None
+    steep = geom.theta_i_deg[:, 0] >= 2 * BLOCKED_DEG
+    source = steep & (retro_distance_deg(geom)[:, 0] < BLOCKED_DEG)
+    mirror = steep & (geom.mirror_distance2[:, 0] < np.radians(BLOCKED_DEG) ** 2)
+    elsewhere = steep & ~source & ~mirror
+    if not (np.any(source) and np.any(mirror) and np.any(elsewhere)) or lost[elsewhere].mean() > 0.3:
+        return None
+    if lost[source].mean() > 0.7 and lost[mirror].mean() < 0.2:
+        return Side("as_read", "values are missing around the source, where the lamp stands in the way", True)
+    if lost[mirror].mean() > 0.7 and lost[source].mean() < 0.2:
+        return Side("turned", "values are missing around the other direction, so the lamp stood there", True)
+    return None
 
 
 def _peaks(geom: Geometry, brdf):

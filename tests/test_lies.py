@@ -127,6 +127,17 @@ def test_zeros_about_the_source_are_blocked_not_black(tmp_path, name):
     np.testing.assert_array_equal(np.isnan(measurement.brdf[:, 0]), blocked)
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_flat_white_reflectance_factors_with_a_blocked_source_are_understood(tmp_path, sign):
+    theta_i, theta_r = (a.ravel() for a in np.meshgrid([15.0, 30.0, 45.0, 60.0], np.arange(-80.0, 81.0, 5.0), indexing="ij"))
+    white = np.where(np.abs(theta_r + theta_i) <= 15, 0.0, 0.95 * np.exp(0.005 * np.random.default_rng(3).standard_normal(len(theta_r))))
+    text = table(("Incident_angle", "Measure_angle", " 390nm ", " 400nm "), theta_i, sign * theta_r, white, white)
+    measurement = believed(tmp_path, text)
+    assert {"blocked-retro-zone", "reflectance-factor"} <= codes(measurement)
+    np.testing.assert_allclose(measurement.geom.signed_theta_r_deg[:, 0], theta_r, atol=1e-6)
+    np.testing.assert_allclose(np.nanmean(measurement.brdf), 0.95 / np.pi, rtol=0.01)
+
+
 @pytest.mark.parametrize("name", SURFACES)
 def test_zeros_at_grazing_are_missing(tmp_path, name):
     theta_i, theta_r, f = in_plane_run(name, seed=12)
