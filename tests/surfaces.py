@@ -34,7 +34,7 @@ def in_plane_run(name: str, seed: int, noise: float = 0.01):
 
 def dome_run(name: str, seed: int, noise: float = 0.01):
     """theta_i, theta_r, phi_r (mirror at 180) [deg] and noisy values of a run over the hemisphere."""
-    grid = np.meshgrid([0.0, 20.0, 40.0, 60.0, 75.0], np.r_[0.0:81.0:5.0], np.arange(0.0, 181.0, 15.0), indexing="ij")
+    grid = np.meshgrid([0.0, 20.0, 40.0, 60.0, 75.0], np.r_[0.0:81.0:5.0], np.arange(0.0, 181.0, 30.0), indexing="ij")
     theta_i, theta_r, phi = (a.ravel() for a in grid)
     geom = Geometry.from_degrees(theta_i, 0.0, theta_r, phi)
     return theta_i, theta_r, phi, value(geom, *SURFACES[name]) * np.exp(noise * np.random.default_rng(seed).standard_normal(len(theta_i)))

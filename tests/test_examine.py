@@ -185,7 +185,7 @@ def test_inspect_prints_one_json_object_and_draws(tmp_path):
     assert document["schema"] == "brdfguide/inspect/1" and document["data"]["samples"] == len(f)
     assert {"coverage", "reciprocity", "energy", "findings", "corrections", "status"} <= document.keys()
     assert [each["code"] for each in document["corrections"]] == ["reflectance-factor"]
-    assert document["coverage"]["by_theta_i"][0]["directions"] == 221
+    assert document["coverage"]["by_theta_i"][0]["directions"] == 119
     assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size > 20000
     text = CliRunner().invoke(build(["inspect"]), ["inspect", str(path)]).stdout
     assert "reflectance-factor" in text and "status: flagged" in text and max(map(len, text.splitlines()[3:9])) < 100
