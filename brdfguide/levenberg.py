@@ -21,6 +21,7 @@ Residuals = Callable[..., tuple[np.ndarray, np.ndarray, np.ndarray] | np.ndarray
 
 FIRST_DAMPING = 1e-3
 MOST_DAMPING = 1e16
+STALL = 25  # evaluations that together gain less than two tolerances each: a long flat valley, whose bottom is known well enough
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,7 @@ def minimise(
     damping, grow, evaluations, converged = FIRST_DAMPING, 2.0, 1, False
     normal, g_shared, g_own = _normal(r, j_shared, j_own)
     scale, own_scale = np.full(shared.shape, 1e-30), np.full(own.shape, 1e-30)
+    history = [cost]  # the least cost after each evaluation
     while not converged and evaluations < most and damping < MOST_DAMPING:
         stuck = ((shared <= low) & (g_shared > 0)) | ((shared >= high) & (g_shared < 0))
         own_stuck = ((own <= own_low) & (g_own > 0)) | ((own >= own_high) & (g_own < 0))
@@ -122,6 +124,8 @@ def minimise(
             # the quadratic model cannot promise a decrease that arithmetic could show
             converged = expected < 1e-15 * cost
             damping, grow = damping * grow, grow * 2
+        history.append(cost)
+        converged = converged or (len(history) > STALL and history[-STALL - 1] - cost < 2 * STALL * tolerance * cost)
     return Minimum(shared, own, cost, normal, evaluations, converged or damping >= MOST_DAMPING)
 
 
