@@ -162,7 +162,7 @@ def averaged(turns: int, spread: float, options: Options) -> Finding:
     if options.average_phi_i:
         return Finding("averaged-over-rotation", f"mean over {turns} rotations of an anisotropic sample", "warning", option="--average-phi-i", numbers=numbers)
     text = f"anisotropic: {turns} rotations of the sample differ by {np.expm1(spread):.0%} (rms)"
-    return Finding("anisotropic", text, "outside", "the guide's models are isotropic", "--average-phi-i, which takes the mean,", numbers)
+    return Finding("anisotropic", text, "outside", "the guide's models are isotropic", "--average-phi-i", numbers)
 
 
 def nominal_colours(channels) -> Finding:

@@ -15,6 +15,7 @@ from ._pivot import pivoted
 from ._sheet import Sheet
 from ._sides import on_its_side
 
+INCIDENCE = r"\b(?:theta_?i(?:n|nc)?(?:_deg)?|aoi|(?:angle of )?incidence(?: angle)?|incident angle)\s*[:=]\s*([-+]?\d+(?:\.\d+)?)\s*(?:deg|°|$)"
 SETTABLE = ("theta_i", "phi_i", "theta_r", "phi_r", "dphi", "wavelength", "brdf", "stderr")
 
 
@@ -78,7 +79,7 @@ def _from_comments(comments) -> dict[str, float]:
     """`# theta_i: 45`, `# wavelength_nm = 532`, `lambda = 532 nm`, `2-5.7 um band` among the comments."""
     found = {}
     text = "\n".join(comments)
-    if match := re.search(r"\btheta_?i(?:_deg)?\s*[:=]\s*([-+]?\d+(?:\.\d+)?)\s*(?:deg|°|$)", text, re.IGNORECASE | re.MULTILINE):
+    if match := re.search(INCIDENCE, text, re.IGNORECASE | re.MULTILINE):
         found["theta_i"] = float(match[1])
     if wave := wavelength_in(text):
         found["wavelength"], found["wavelength said as"] = wave

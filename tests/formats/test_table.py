@@ -131,8 +131,9 @@ def test_percent_and_relative_uncertainties_become_absolute(tmp_path):
     np.testing.assert_allclose(measurement.stderr[:, 0], [0.01, 0.02])
 
 
-def test_wavelength_and_incidence_out_of_comments(tmp_path):
-    measurement = read(tmp_path, "# theta_i: 45\n# wavelength_nm: 633\ntheta_r,brdf\n-20,.1\n30,.2\n45,.4\n")
+@pytest.mark.parametrize("incidence", ["theta_i: 45", "AOI = 45 deg", "Angle of incidence: 45°", "incident angle = 45"])
+def test_wavelength_and_incidence_out_of_comments(tmp_path, incidence):
+    measurement = read(tmp_path, f"# {incidence}\n# wavelength_nm: 633\ntheta_r,brdf\n-20,.1\n30,.2\n45,.4\n")
     assert measurement.theta_i_groups.keys() == {45.0}
     assert measurement.geom.wavelength[0] == pytest.approx(0.633)
 
