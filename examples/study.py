@@ -17,7 +17,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from brdfguide import fitting, models, predict, preview
 from brdfguide.exporters._base import Surface
@@ -41,9 +40,9 @@ SURFACES = {
 }
 
 
-def measurement(found) -> Measurement:
+def measurement(found, omega) -> Measurement:
     theta_i, theta_r, value, stderr = np.array(found).T
-    return Measurement(rows(in_plane(theta_i, theta_r, np.array([0.55]))), value[:, None], stderr=stderr[:, None], solid_angle=OMEGA)
+    return Measurement(rows(in_plane(theta_i, theta_r, np.array([0.55]))), value[:, None], stderr=stderr[:, None], solid_angle=omega)
 
 
 class Case:
@@ -54,8 +53,8 @@ class Case:
         self.omega = None if surface.startswith("S5") else OMEGA  # the mirror image of the paint's coat is excluded, as in the report
         _, i, r, f = read_truth(HERE / "samples" / "truth" / f"{stem}_{variant}.csv")
         self.truth = {(a, b): f[m, n] for m, a in enumerate(i) for n, b in enumerate(r)}
-        self.seen = measurement(measure(i, r, f, seed, SEEN)[0])
-        self.unseen = measurement(measure(i, r, f, seed, UNSEEN)[0])
+        self.seen = measurement(measure(i, r, f, seed, SEEN)[0], self.omega)
+        self.unseen = measurement(measure(i, r, f, seed, UNSEEN)[0], self.omega)
         theta_i, theta_r = self.seen.geom.theta_i_deg[:, 0], self.seen.geom.signed_theta_r_deg[:, 0]
         self.fits, self.e, self.e75, self.held, self.peak, self.rise = {}, {}, {}, {}, {}, {}
         for name in FOUR + MORE + ("he-torrance, scale free",):
@@ -67,8 +66,6 @@ class Case:
                 held.pop("he-torrance.scale")
                 model = replace(model, free=("he-torrance.scale",))
             found = fitting.fit(model, self.seen, fitting.Options(fixed=held, weights="none"))
-            if law == "he-torrance" and self.omega:
-                found = with_mirror(found, self.seen)
             self.fits[name] = found
             residual = self.residual(found, self.seen)
             self.e[name] = rms(residual)
@@ -83,28 +80,6 @@ class Case:
 
     def residual(self, found, data):
         return np.log(self.reading(found, data.geom) / data.brdf)[:, 0]
-
-
-def with_mirror(found, data):
-    """The fit again with the mirror part counted as the receiver reads it, from the fit without it and from two rougher starts."""
-    keys = [key for key in found.stderr if key != "lambertian.albedo"]
-    best = None
-    for sigma in (found.values["he-torrance.sigma"], 0.5, 2.0):
-        start = {**found.values, "he-torrance.sigma": sigma}
-
-        def values(x, start=start):
-            return {**start, "lambertian.albedo": np.exp(x[0]), **dict(zip(keys, np.exp(x[1:])))}
-
-        def residual(x, values=values):
-            return np.log(predict.reading(found.model, data.geom, values(x), OMEGA) / data.brdf)[:, 0]
-
-        first = np.log([max(float(np.mean(start[key])), 1e-4) for key in ("lambertian.albedo", *keys)])
-        bounds = [(1e-5, 1.0)] + [(found.model.parameters[key].low, min(found.model.parameters[key].high, 20.0)) for key in keys]
-        low, high = np.log(np.maximum(np.array(bounds).T, 1e-6))
-        answer = least_squares(residual, np.clip(first, low + 1e-6, high - 1e-6), bounds=(low, high), x_scale=0.1, max_nfev=60)
-        if best is None or answer.cost < best[0]:
-            best = answer.cost, values(answer.x)
-    return replace(found, values=best[1])
 
 
 def rms(values) -> float:

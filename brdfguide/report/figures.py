@@ -68,20 +68,23 @@ def effective_roughness():
 def four_models(measurement: Measurement, number: int, origin: str):
     """Figures 4, 5, 7, 11: a sample at three angles of incidence with the report's four models fitted to it.
 
-    At the metal a mirror peak is to be seen: He-Torrance's mirror part is drawn as the receiver reads it, and nothing
-    close to it was fitted. The paint gets a free scale, since its flakes reflect more than any dielectric.
+    He-Torrance's mirror part counts as the receiver reads it; at the metal, where a peak is to be seen, nothing close to
+    it is fitted. The paint's coat was left out of the data, so no mirror part counts; it gets a free scale, since its
+    flakes reflect more than any dielectric.
     """
     _, (n, k), half = SAMPLES[number]
     theta_i, theta_r = measurement.geom.theta_i_deg[:, 0], measurement.geom.signed_theta_r_deg[:, 0]
     words = f"He-Torrance is given n = {n:g}" + (f" + {k:g}i" if k else "")
+    if number == 11:
+        measurement = replace(measurement, solid_angle=None)
+        words += ", its scale is free; its mirror part is left out, as it is of the data"
+    else:
+        measurement = replace(measurement, solid_angle=measurement.solid_angle or pi * radians(half) ** 2)
+        words += f" and reads its mirror part in a receiver of half angle {half:g}°"
     part = measurement
     if number == 4:
-        measurement = replace(measurement, solid_angle=measurement.solid_angle or pi * radians(half) ** 2)
         part = measurement[~((theta_i > 70) & (np.abs(theta_r - theta_i) <= PEAK_DEG))]
-        words += f" and reads its mirror part in a receiver of half angle {half:g}°; within {PEAK_DEG:g}° of that peak nothing was fitted"
-    else:
-        words += ", its scale is free" if number == 11 else ""
-        words += "; its mirror part is not drawn"
+        words += f"; within {PEAK_DEG:g}° of that peak nothing was fitted"
     lines = []
     for name in FOUR:
         model, he = models.get(name), "he-torrance" in name
