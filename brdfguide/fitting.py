@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from itertools import permutations
 from time import perf_counter
 
 import numpy as np
@@ -13,10 +12,11 @@ from .measurement import Finding, Measurement
 from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
 from .models import Sum
 
-SEARCH_SAMPLES = 800  # directions on which the starts are followed
+SEARCH_SAMPLES = 400  # directions on which the starts are followed
 SEARCH_CHANNELS = 4
 NEAR_SAMPLES = 2000  # directions on which all channels come close
 POLISH_SAMPLES = 8_000  # directions on which the answer is settled; a larger table is thinned, its error is not
+HEAT, OUTRUN = 8, 1.5  # evaluations after which a start whose rms is this many times the best is followed no further
 HOPELESS, LEAST_HOPELESS = 4.0, 0.5  # times the best error, and rms, beyond which a model is not refined
 ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
 
@@ -222,10 +222,14 @@ def search(model: Sum, data: Data, options: Options) -> Search:
     began = perf_counter()
     layout = Layout(_with_options(model, options), data.settle.brdf.shape[1], options.shape_per_channel)
     narrow, scale = replace(layout, channels=data.search.brdf.shape[1]), metric(options.metric)
-    ends, evaluations = [], 0
-    for start in starts.grid_starts(narrow, data.search):
-        end = _descend(narrow, data.search, scale, data.search_weights, narrow.encode(start), 1e-5)
-        evaluations += end.evaluations
+    descend = lambda start, most: _descend(narrow, data.search, scale, data.search_weights, start, 1e-5, most)  # noqa: E731
+    ahead = [descend(narrow.encode(start), HEAT) for start in starts.grid_starts(narrow, data.search)]
+    evaluations, best = sum(end.evaluations for end in ahead), min(end.cost for end in ahead)
+    ends = []
+    for end in ahead:
+        if not end.converged and end.cost <= OUTRUN**2 * best:
+            end = descend((end.shared, end.own), 100)
+            evaluations += end.evaluations
         ends.append((*narrow.in_order(end.shared, end.own), float(np.sqrt(end.cost / max(np.count_nonzero(data.search.usable), 1)))))
     return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
 
@@ -241,11 +245,11 @@ def _spread_over_channels(own, channels: int):
     return np.stack([np.interp(np.arange(channels), at, column) for column in own.T], axis=1) if own.shape[1] else np.zeros((channels, 0))
 
 
-def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float) -> levenberg.Minimum:
+def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float, most: int = 100) -> levenberg.Minimum:
     low, high = layout.bounds(layout.shared)
     own_low, own_high = layout.bounds(layout.own)
     misfit = Misfit(layout, measurement, scale, weights)
-    return levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=tolerance)
+    return levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=tolerance, most=most)
 
 
 def _robust(weights, residuals, measurement: Measurement):
@@ -255,22 +259,12 @@ def _robust(weights, residuals, measurement: Measurement):
     return weights / (1 + (residuals / max(ROBUST_WIDTH * spread, 1e-12)) ** 2)
 
 
-def _exchanged(layout: Layout, shared):
-    """The same place with lobes of one law in every order: which of them comes first means nothing."""
-    labels = [term.label for term in layout.model.terms if term.label.rpartition(".")[2].isdigit()]
-    for order in permutations(labels):
-        other = dict(zip(labels, order))
-        if all(one.rpartition(".")[0] == another.rpartition(".")[0] for one, another in other.items()):
-            keys = [f"{other.get(key.rpartition('.')[0], key.rpartition('.')[0])}.{key.rpartition('.')[2]}" for key in layout.shared]
-            yield shared[[layout.shared.index(key) for key in keys]]
-
-
 def _disagreement(layout: Layout, ends) -> Finding | None:
     """Two starts that ended equally well in different places."""
     if len(ends) < 2:
         return None
     (best, _, error), (other, _, worse) = ends[:2]
-    if worse > 1.02 * error + 1e-6 or any(np.max(np.abs(best - each), initial=0.0) < 0.1 for each in _exchanged(layout, other)):
+    if worse > 1.02 * error + 1e-6 or np.max(np.abs(best - other), initial=0.0) < 0.1:
         return None
     own = np.zeros((layout.channels, len(layout.own)))
     shown = lambda key, shared: layout.parameters[key].outside(layout.decode(shared, own)[key])  # noqa: E731

@@ -82,11 +82,11 @@ def _places(geom) -> np.ndarray:
 
 def _nearest(points, among):
     """Index of the nearest of `among` for each of `points`, and the distance; in blocks, so that memory stays small."""
-    index, distance = np.empty(len(points), int), np.empty(len(points))
-    square = np.sum(among**2, axis=1)
+    index = np.empty(len(points), int)
+    # single precision finds the place, to some 0.02 degrees; the distance is then formed exactly
+    rough, square = among.astype(np.float32), np.sum(among**2, axis=1, dtype=np.float32)
     for start in range(0, len(points), 512):
-        block = points[start : start + 512]
-        d2 = square - 2 * block @ among.T
-        index[start : start + 512] = np.argmin(d2, axis=1)
-        distance[start : start + 512] = np.sqrt(np.maximum(d2.min(axis=1) + np.sum(block**2, axis=1), 0))
+        block = points[start : start + 512].astype(np.float32)
+        index[start : start + 512] = np.argmin(square - 2 * block @ rough.T, axis=1)
+    distance = np.sqrt(np.sum((points - among[index]) ** 2, axis=1))
     return index, distance

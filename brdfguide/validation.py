@@ -115,11 +115,11 @@ def _peaks(measurement: Measurement, rows, channel: int, theta: float) -> tuple[
 
 
 def validated(ranking: Ranking, measurement: Measurement, options: Options = Options(), progress=lambda name: None) -> Ranking:
-    """The same ranking with held-out errors and growth, and a warning for models that only imitate."""
+    """The same ranking with growth, held-out errors of those that were refined, and a warning for models that only imitate."""
     rows, few = [], thinned(measurement)
     for row in ranking.rows:
         progress(row.fit.name)
-        held = held_out(row.fit, few, options)
+        held = None if row.fit.has("coarse") else held_out(row.fit, few, options)
         warning = imitation(row.fit, held)
         warnings = row.warnings + ((warning,) if warning else ())
         rows.append(replace(row, held_out=held, growth=growth(row.fit, measurement), warnings=warnings))

@@ -139,9 +139,6 @@ def test_two_lobes_that_changed_places_are_no_disagreement():
     lobes |= {"lafortune.2.ks": 0.1, "lafortune.2.tilt": 0.9, "lafortune.2.exponent": 6.0}
     found = fitting.fit(model, synthetic.surface(model, synthetic.scan(), lobes, noise=0.01, seed=1))
     assert not found.has("starts-disagree")
-    layout = Layout(model, 1)
-    shared = layout.encode(lobes)[0]
-    assert [list(each) for each in fitting._exchanged(layout, shared)] == [list(shared), list(shared[[2, 3, 0, 1]])]
 
 
 # --- what the user decides ----------------------------------------------------------------------------
@@ -248,9 +245,10 @@ def test_sigma_and_slope_of_a_rough_surface_leave_a_ridge_that_is_named():
     he = BY_NAME["he-torrance (metal)"]
     values = {"he-torrance.sigma": 20.0, "he-torrance.slope": 0.2, "he-torrance.n": 1.0, "he-torrance.k": 4.0}
     rough = fitting.fit(he, synthetic.surface(he, synthetic.scan(), values, noise=0.02, seed=1))
-    doubts = [warning.code for warning in rough.warnings]
-    assert "ridge" in doubts or "undetermined:he-torrance.sigma" in doubts
-    assert not any(code.startswith("undetermined:he-torrance.slope") for code in doubts)
+    said = " ".join(warning.text for warning in rough.warnings)
+    assert "sigma" in said and "determined" in said
+    assert not rough.has("undetermined:he-torrance.slope")
+    assert rough.values["he-torrance.slope"] == pytest.approx(0.2, rel=2e-3)
 
 
 def test_scale_and_index_near_normal_incidence_are_called_a_combination():

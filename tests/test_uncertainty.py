@@ -14,7 +14,10 @@ SETS = 16
 
 @pytest.mark.parametrize("name", ["lambertian+ward", "lambertian+ggx", "lambertian+lafortune"])
 def test_intervals_hold_the_truth_as_often_as_they_say_with_seeds_0_to_15(name):
-    """200 sets each are in benchmarks/recovery.py; here 16, and a binomial bound of three standard deviations."""
+    """200 sets each are in benchmarks/recovery.py; here 16, and a binomial bound of three standard deviations.
+
+    A lobe that nothing shows (exponent 600 within 45° of the normal) must be called so, and is then not counted.
+    """
     model, inside, count, off = models.get(name), 0, 0, []
     for seed in range(SETS):
         random = np.random.default_rng([seed, 21])
@@ -22,9 +25,13 @@ def test_intervals_hold_the_truth_as_often_as_they_say_with_seeds_0_to_15(name):
         data = synthetic.surface(model, synthetic.scan(step=5), values, noise=random.uniform(0.02, 0.05), seed=seed, channels=3)
         found = fitting.fit(model, synthetic.with_gaps(data, seed))
         assert found.converged
+        if any(warning.code.startswith(("undetermined", "starts-disagree")) for warning in found.warnings):
+            assert name.endswith("lafortune") and found.rms_ln < 0.055
+            continue
         for key, stderr in found.stderr.items():
             z = (np.atleast_1d(found.values[key]) - values[key]) / stderr
             inside, count, off = inside + np.count_nonzero(np.abs(z) < 1.96), count + z.size, off + list(z)
+    assert count >= 0.7 * SETS * 7
     spread = 3 * np.sqrt(0.95 * 0.05 * count)
     assert abs(inside - 0.95 * count) < spread
     assert abs(np.median(off)) < 4 / np.sqrt(count)
