@@ -153,7 +153,7 @@ def energy(term: Model) -> Outcome:
         dhr = hemisphere.dhr(term, INCIDENCE, values).max(axis=1)
         amount = next((p for p in term.parameters if p.linear), None)
         if amount is not None and amount.unit == "1/sr":
-            dhr = dhr / max(dhr[0], 1e-100)
+            dhr = dhr / max(dhr[0], 1e-6)  # a lobe that sends nothing there is taken as it is, a million times
         worst.see(np.maximum(dhr - 1, 0), in_plane(np.array(INCIDENCE), 0.0), values)
     return worst.outcome()
 

@@ -134,3 +134,16 @@ def test_command_ends_with_2_for_an_unknown_model_and_for_two_subjects(capsys, t
     assert (status, out) == (2, "") and "did you mean ward" in err
     status, out, err = run(["check", "ward", "--fit", str(tmp_path / "fit.json")], capsys)
     assert (status, out) == (2, "") and "either models or --fit" in err
+
+
+def test_command_audits_a_saved_fit_at_its_own_parameters(capsys, tmp_path):
+    values = {"lambertian.albedo": 0.2, "phong.ks": [0.5, 4.0], "phong.exponent": 20.0}
+    row = {"candidate": "lambertian+phong", "model": "lambertian+phong", "parameters": {key: {"value": value} for key, value in values.items()}}
+    data = {"channels": ["blue", "red"], "wavelength_nm": [450.0, 650.0]}
+    path = tmp_path / "fit.json"
+    path.write_text(json.dumps({"schema": "brdfguide/fit/1", "recommended": "lambertian+phong", "ranking": [row], "data": data}))
+    status, out, err = run(["check", "--fit", str(path), "--json"], capsys)
+    document = json.loads(out)
+    verdict = {each["law"]: each["verdict"] for each in document["models"][0]["checks"]}
+    assert status == 0 and verdict["finite"] == "holds" and verdict["energy"] == verdict["reciprocity"] == "declared"
+    assert {"gains-energy", "not-reciprocal"} <= {found["code"] for found in document["findings"]}
