@@ -54,7 +54,7 @@ class Pruned:
     stand_in: bool  # whether another law takes the place of the lobes
     errors: Errors
     fresh: Errors  # on other pixels of the same scene
-    moved: tuple[Errors, ...]  # with every angle 10 % smaller, and larger
+    moved: Mapping[float, Errors]  # with every angle times this, where there is light then
     whole_time: Time
     time: Time
     operations: tuple[Mapping, Mapping]  # of the whole and of what is left
@@ -128,14 +128,13 @@ def _wavelengths(values: Mapping, wavelength, geom_of_data) -> np.ndarray:
     return np.array(np.broadcast_to(np.asarray(wavelength, float), np.broadcast_shapes(np.shape(np.atleast_1d(wavelength)), *shapes)))
 
 
-def _picture(parts: Parts, scene: Scene, size: int, seed: int, width: float) -> Picture:
+def _picture(parts: Parts, scene: Scene, size: int, seed: int, width: float) -> Picture | None:
+    """The model seen through `scene`; None if nothing is lit and seen."""
     drawn = quadrature.draw(scene, size, seed, width)
     if not len(drawn):
-        raise NoAnswer(f"{scene.name}: no surface is both lit and seen; widen the camera's or the lights' angles")
+        return None
     picture = Picture(parts, drawn.at(parts.wavelength))
-    if not picture.weights.any():
-        raise NoAnswer(f"{scene.name}: the model is black wherever the scene looks")
-    return picture
+    return picture if picture.weights.any() else None
 
 
 def _converged(draw, scene: Scene, seed: int):
@@ -145,6 +144,8 @@ def _converged(draw, scene: Scene, seed: int):
     size, before = FIRST_PIXELS, None
     while True:
         picture = draw(scene, size, seed)
+        if picture is None:
+            raise NoAnswer(f"{scene.name}: nothing is both lit and seen, or the model is black there; widen the camera's or the lights' angles")
         work = search.work_of_ways(picture) if before is None else work
         singles = _singles(picture)
         now = np.array([min(value, most) for errors in singles.values() for value in (errors.visible, errors.p95)])
@@ -174,18 +175,20 @@ def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int):
         seen.add(id(each))
         if checks is None:
             size = len(picture.weights)
-            checks = [draw(scene, size, seed + 1), *(draw(scene.scaled(factor), size, seed) for factor in STRAY)]
-        fresh, *moved = (check.errors(check.radiance(each.sum, each.values)) for check in checks)
+            again, strayed = draw(scene, size, seed + 1), {factor: draw(scene.scaled(factor), size, seed) for factor in STRAY}
+            checks = {"fresh": again or picture} | {factor: check for factor, check in strayed.items() if check}
+        moved = {key: check.errors(check.radiance(each.sum, each.values)) for key, check in checks.items()}
+        fresh = moved.pop("fresh")
         if not fresh.within(scene.tolerance, FRESH_FACTOR):
             why = f"{fresh.visible:.2g} JND at worst on fresh directions"
-        elif scene.camera_moves and not all(errors.within(scene.tolerance) for errors in moved):
-            why = f"{max(errors.visible for errors in moved):.2g} JND at worst with the angles 10 % off, and the camera moves"
+        elif scene.camera_moves and not all(errors.within(scene.tolerance) for errors in moved.values()):
+            why = f"{max(errors.visible for errors in moved.values()):.2g} JND at worst with the angles 10 % off, and the camera moves"
         else:
-            return each, fresh, tuple(moved), refused
+            return each, fresh, moved, refused
         if len(refused) < 3:
             refused += (Finding("pruned-refused", f"{each} would do on the drawn directions, but not when checked: {why}"),)
     whole = cuts[NOTHING]
-    return whole, whole.errors, (whole.errors,) * len(STRAY), refused
+    return whole, whole.errors, dict.fromkeys(STRAY, whole.errors), refused
 
 
 def _worth_it(picture: Picture, pick: Candidate, cuts: dict) -> Candidate:

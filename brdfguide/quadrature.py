@@ -162,12 +162,15 @@ class Quadrature:
 
 
 def draw(scene: Scene, size: int, seed: int, width: float) -> Quadrature:
-    """About `size` pixels of `scene`, only those that face the camera and some light.
+    """About `size` pixels of `scene`, only those that face the camera and some light; fewer of a thin crescent.
 
     Takes  width [rad], of the narrowest lobe that may be seen.    Gives  a Quadrature, the same for the same seed.
     """
-    weights, camera, lights = pixels.listed(scene) if scene.pairs else pixels.drawn(scene, size, seed, width)
-    lit = np.any(lights[..., 2] > 0, axis=1) | (scene.environment > 0)
-    kept = (weights > 0) & (camera[:, 2] > 0) & lit
+    for more in (1, 8, 64):
+        weights, camera, lights = pixels.listed(scene) if scene.pairs else pixels.drawn(scene, more * size, seed, width)
+        lit = np.any(lights[..., 2] > 0, axis=1) | (scene.environment > 0)
+        kept = (weights > 0) & (camera[:, 2] > 0) & lit
+        if scene.pairs or np.count_nonzero(kept) > size / 4:
+            break
     weights = weights[kept]
     return Quadrature(scene, seed, weights / max(weights.sum(), 1e-300), camera[kept], lights[kept], width)

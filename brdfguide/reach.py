@@ -25,9 +25,9 @@ def at_bounds(pruned: Sum, values: Mapping) -> tuple[Finding, ...]:
 
 def strays(scene: Scene, moved) -> tuple[Finding, ...]:
     """A warning where the tolerance is lost once camera and lights stray by 10 %."""
-    if all(errors.within(scene.tolerance) for errors in moved):
+    if all(errors.within(scene.tolerance) for errors in moved.values()):
         return ()
-    worst = max(errors.visible for errors in moved)
+    worst = max(errors.visible for errors in moved.values())
     text = f"with camera and lights 10 % off the stated angles the difference reaches {worst:.2g} JND at worst"
     return (Finding("scene-may-stray", text, "warning", "keep to the box of angles", "camera_moves: true in the scene", (("worst_jnd", worst),)),)
 

@@ -28,7 +28,7 @@ class Directions:
 
     def scaled(self, factor: float) -> "Directions":
         """The same with its zenith angles multiplied, at most 89.9° where it was above the horizon."""
-        top = max(89.9, *self.theta_deg) if max(self.theta_deg) <= 90 else 180.0
+        top = 89.9 if max(self.theta_deg) <= 90 else 180.0
         return replace(self, theta_deg=tuple(min(angle * factor, top) for angle in self.theta_deg))
 
 

@@ -28,7 +28,7 @@ def document(found: Pruned, timing: bool = True) -> dict:
         "parameters": {key: _outside(found.sum.parameters[key], value) for key, value in found.values.items()},
         "error": errors(found.errors),
         "error_fresh": errors(found.fresh),
-        "error_strayed": [{"angles_times": factor, **errors(each)} for factor, each in zip((0.9, 1.1), found.moved)],
+        "error_strayed": [{"angles_times": factor, **errors(each)} for factor, each in found.moved.items()],
         "parts": [_single(each, timing) for each in found.singles],
         "operations": {"whole": dict(found.operations[0]), "pruned": dict(found.operations[1])},
         "pareto": [_candidate(each, found, timing) for each in found.pareto],
