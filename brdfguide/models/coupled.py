@@ -19,7 +19,12 @@ from ._base import Extreme, Model, Parameter, Pin
 
 def brdf(geom: Geometry, *, albedo) -> np.ndarray:
     """BRDF [1/sr], in the shape of `geom`."""
-    return albedo * (21 / (20 * pi)) * through(geom.cos_i) * through(geom.cos_r)
+    return (albedo * (21 / (20 * pi))) * geom.remembered(_both)
+
+
+def _both(geom: Geometry):
+    """In and out again."""
+    return through(geom.cos_i) * through(geom.cos_r)
 
 
 def through(cos) -> np.ndarray:
