@@ -12,35 +12,30 @@ from ._series_cells import ln_series
 BLOCK = 4096
 
 
-def shadowing(cos, sin, slope):
-    """S/cos θ, finite at grazing, and K = tan θ erfc(ν). Beyond ν = 26 they are 1/cos θ and 0 to every digit."""
+def shadowing(cos, sin, slope, derivatives=False):
+    """S/cos θ, finite at grazing, and K = tan θ erfc(ν). Beyond ν = 26 they are 1/cos θ and 0 to every digit.
+
+    With `derivatives` also d ln S/d ln slope and dK/d ln slope.
+    """
     steep = np.maximum(2 * slope * sin, cos / 26)
     nu = cos / steep
     bell = np.exp(-nu * nu)
     erfc = erfcx(nu)
     erfc *= bell
     visible = sqrt(pi) * (2 - erfc)
+    by_slope = (-bell * (2 * nu / visible + 1 / (nu * visible + bell)), bell / (sqrt(pi) * slope)) if derivatives else ()
     nu *= visible
     nu += bell
     nu *= steep
     visible /= nu
     erfc *= sin / cos
-    return visible, erfc
+    return visible, erfc, *by_slope
 
 
-def by_shadows(geom, slope, by_ln_g):
-    """The share of d ln f/d ln slope that comes through S and, by the effective roughness, through g."""
-    through_s, spread, by_spread = 0.0, 0.0, 0.0
-    for cos, sin in ((geom.cos_i, geom.sin_i), (geom.cos_r, geom.sin_r)):
-        nu = cos / np.maximum(2 * slope * sin, cos / 26)
-        bell = np.exp(-nu * nu)
-        erfc = bell * erfcx(nu)
-        visible = sqrt(pi) * (2 - erfc)
-        through_s = through_s - bell * (2 * nu / visible + 1 / (nu * visible + bell))
-        spread = spread + sin / cos * erfc
-        by_spread = by_spread + bell / (sqrt(pi) * slope)
+def ln_g_by_ln_slope(spread, by_slope):
+    """d ln g/d ln slope, from K at both angles and dK/d ln slope: g follows the effective roughness."""
     w = lambert_w(spread * spread / (8 * pi))
-    return through_s - by_ln_g * spread * np.exp(-w) / (4 * pi * (1 + w) ** 2) * by_spread
+    return -spread * np.exp(-w) / (4 * pi * (1 + w) ** 2) * by_slope
 
 
 def shadow_free(spread):

@@ -21,7 +21,7 @@ from .. import optics
 from ..geometry import Geometry, in_plane
 from ._base import Derived, Extreme, Model, Parameter, Pin
 from ._series_cells import ln_series
-from ._shadows import by_shadows, fresnel, height_factor, in_blocks, reduced, shadow_free, shadowing
+from ._shadows import fresnel, height_factor, in_blocks, ln_g_by_ln_slope, reduced, shadow_free, shadowing
 
 
 def brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
@@ -46,7 +46,7 @@ def mirror(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, sigma, slope, n, k, scale) -> dict[str, np.ndarray]:
     """df/dsigma, df/dslope, df/dn, df/dk, as far as `names` asks for them."""
-    bare, g, y = in_blocks(_parts, geom, sigma, slope, None, None, scale)
+    bare, g, y, through_s, through_g = in_blocks(_parts, geom, sigma, slope, None, None, scale, True)
     ln_s, by_ln_g, by_y = ln_series(g, y, derivatives=True)
     bare = bare * np.exp(ln_s)
     f = bare * fresnel(geom, n, k)
@@ -55,23 +55,28 @@ def gradient(geom: Geometry, names, *, sigma, slope, n, k, scale) -> dict[str, n
     if "sigma" in names:
         out["sigma"] = f * (by_tau + 2 * by_ln_g) / sigma
     if "slope" in names:
-        out["slope"] = f * (by_shadows(geom, slope, by_ln_g) - by_tau) / slope
+        out["slope"] = f * (through_s + by_ln_g * through_g - by_tau) / slope
     if "n" in names or "k" in names:
         out["n"], out["k"] = (bare * each for each in optics.fresnel_gradient(geom.cos_d, n, k))
     return {name: out[name] for name in names if name in out}
 
 
-def _parts(geom, sigma, slope, n, k, scale):
-    """What multiplies the sum, and its arguments g and y = x/4. Without n, without Fresnel's factor."""
-    shadow_i, spread_i = shadowing(geom.cos_i, geom.sin_i, slope)
-    shadow_r, spread_r = shadowing(geom.cos_r, geom.sin_r, slope)
+def _parts(geom, sigma, slope, n, k, scale, derivatives=False):
+    """What multiplies the sum, and its arguments g and y = x/4; without n, without Fresnel's factor.
+
+    With `derivatives` also those of ln S_i S_r and of ln g by ln slope.
+    """
+    shadow_i, spread_i, *by_i = shadowing(geom.cos_i, geom.sin_i, slope, derivatives)
+    shadow_r, spread_r, *by_r = shadowing(geom.cos_r, geom.sin_r, slope, derivatives)
+    spread = spread_i + spread_r
     tau = sigma / slope
-    g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * shadow_free(spread_i + spread_r)) ** 2
+    g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * shadow_free(spread)) ** 2
     y = (pi * tau / geom.wavelength) ** 2 * geom.vxy2
     shadow_i *= shadow_r
     shadow_i *= geom.remembered(height_factor)
     f = 1.0 if n is None else fresnel(geom, n, k)
-    return (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow_i, g, y
+    factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow_i
+    return (factor, g, y, by_i[0] + by_r[0], ln_g_by_ln_slope(spread, by_i[1] + by_r[1])) if derivatives else (factor, g, y)
 
 
 CHEAPER = tuple((*some, *waves) for some in ((), ("fresnel",), ("masking",), ("fresnel", "masking")) for waves in ((), ("series",), ("waves",)))[1:]
