@@ -195,7 +195,8 @@ def _name_points(fig, axis, lines, time, error, front):
 
 def _plain_log(axis):
     """Plain numbers on a log axis, as few as fit."""
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=20))
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 8 * low else (1, 1.5, 2, 3, 4, 5, 6, 8), numticks=20))
     axis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.set_minor_formatter(NullFormatter())
 

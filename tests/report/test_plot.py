@@ -102,3 +102,11 @@ def test_no_point_and_no_name_lies_outside_the_frame():
     for text in fig.axes[0].texts:
         box = text.get_window_extent()
         assert frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1, text.get_text()
+
+
+@pytest.mark.parametrize("errors", [(0.75, 1.13), (0.056, 0.061), (0.07, 2.2)])
+def test_an_axis_of_errors_has_at_least_two_numbers(errors):
+    lines = [plot.Line(name, None, {}, error, ns, True) for name, error, ns in zip(("ward", "ggx"), errors, (50, 20))]
+    axis = plot.cost(lines).axes[0]
+    low, high = axis.get_ylim()
+    assert np.count_nonzero((axis.get_yticks() >= low) & (axis.get_yticks() <= high)) >= 2
