@@ -8,6 +8,7 @@ SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 # how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
 SPIKE_DROPS = ((np.log(5.0), 3.0), (np.log(100.0), 1.5))
 GRAZING_DEG = 85.0
+DENSE = 200_000  # directions beyond which a table is dense and has no single samples
 EDGE_DEG = 75.0  # beyond this a scan may be cut off
 
 
@@ -35,7 +36,7 @@ def spikes(measurement: Measurement) -> np.ndarray:
     An ideal mirror, seen through the instrument, gives such values; their height says more about the aperture than about the surface.
     """
     mask = np.zeros(len(measurement.geom), bool)
-    if len(mask) > 200_000:  # a dense table has no single samples
+    if len(mask) > DENSE:
         return mask
     level = np.nanmax(np.where(measurement.usable, _ln(measurement), -np.inf), axis=1)
     distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
@@ -60,6 +61,8 @@ def dark_edges(measurement: Measurement) -> np.ndarray:
     No surface does that far from its mirror direction; an aperture cut off by the horizon or the holder does.
     """
     mask = np.zeros(len(measurement.geom), bool)
+    if len(mask) > DENSE:
+        return mask
     level = _ln(measurement)
     counted = np.any(np.isfinite(level), axis=1)
     level = np.where(counted, np.nanmedian(np.where(counted[:, None], level, 0.0), axis=1), np.nan)
@@ -93,7 +96,7 @@ def _groups(measurement: Measurement):
 def _scans(measurement: Measurement):
     """(rows in order, their angle [deg]) of every scan through at least five directions."""
     geom = measurement.geom
-    if len(geom) > 200_000:
+    if len(geom) > DENSE:
         return
     plane = np.round(np.where(geom.sin_i < 1e-6, 0.0, np.remainder(geom.phi_deg + 1e-6, 180.0)), 0)[:, 0] % 180
     sign = np.where(np.remainder(geom.phi_deg[:, 0] + 1e-6, 360.0) >= 179.5, 1.0, -1.0)
@@ -132,7 +135,7 @@ def _departures(rows, angle, level):
 def _mirrored(measurement: Measurement, level):
     """Half differences of values at +phi and -phi."""
     geom = measurement.geom
-    if len(geom) > 200_000:
+    if len(geom) > DENSE:
         return []
     phi = np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0
     keys = np.round(np.stack([geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0], np.abs(phi)], axis=1), 2)
