@@ -22,7 +22,7 @@ from ..geometry import Geometry, rows
 from ._directions import rms_ln
 
 # closer toward grazing; off the round angles at which the residual is taken, so that this sees what interpolation costs
-THETA_I = np.radians(np.concatenate(([0.0], np.arange(0.75, 80.0, 1.5), np.arange(80.6, 88.0, 0.8), [88.4, 88.9, 89.3, 89.6, 89.9])))
+THETA_I = np.radians(np.concatenate(([0.0], np.arange(0.75, 74.0, 1.5), np.arange(74.6, 88.0, 0.8), [88.4, 88.9, 89.3, 89.6, 89.9])))
 FINE = 1024  # nodes of ndf and sigma
 LEAST = 1e-12  # 1/sr: below it float32 tables hold nothing
 FAINT = 1e-6  # least ndf and sigma, of their greatest
