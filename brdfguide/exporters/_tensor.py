@@ -4,8 +4,7 @@
 
 A reader interpolates `spectra` linearly in u_m and θi, so it must be smooth: `ndf` carries the lobe, `sigma` its
 growth toward grazing, both finely sampled. `vndf` is flat, so that no warp stands between u_m and the table, and
-`luminance` alone steers the sampling. Below the horizon the table continues oddly, so that the linear
-interpolation has no kink where the light sets.
+`luminance` alone steers the sampling.
 
 Layout: FORMATS of the database (Dupuy and Jakob 2018, "An adaptive parameterization for efficient material
 acquisition and rendering"), as Mitsuba 3.9 reads it. Numbers of nodes: ours.
@@ -60,7 +59,7 @@ class Table:
         fine = np.linspace(0, 1, FINE)
         ndf = np.interp(u, fine, self.ndf[0])
         sigma = np.interp(np.sqrt(2 * theta_i / pi), fine, self.sigma[0])
-        return np.maximum(value, 0) * (ndf / (4 * sigma))[:, None] / geom.cos_r
+        return value * (ndf / (4 * sigma))[:, None] / geom.cos_r
 
 
 def tabulate(brdf, size: int) -> Table:
@@ -71,11 +70,11 @@ def tabulate(brdf, size: int) -> Table:
     ndf = _ndf(brdf, fine, sigma_at, height)
     u = np.linspace(0, 1, size)
     theta_m, phi_m = u * u * (pi / 2), (2 * u - 1) * pi
-    ndf_at = lambda theta: np.interp(np.sqrt(2 * theta / pi), fine, ndf)  # noqa: E731
+    ndf_at = np.tile(np.interp(u, fine, ndf), size)
     layers = []
     for theta in THETA_I:
-        value, tilt = _outgoing(brdf, np.full(size * size, theta), np.tile(theta_m, size), np.repeat(phi_m, size))
-        layers.append((value * (4 * sigma_at(theta) / ndf_at(tilt))[:, None]).T.reshape(-1, size, size))
+        value = _outgoing(brdf, np.full(size * size, theta), np.tile(theta_m, size), np.repeat(phi_m, size))
+        layers.append((value * (4 * sigma_at(theta) / ndf_at)[:, None]).T.reshape(-1, size, size))
     twice = lambda values: np.stack((values, values)).astype(np.float32)  # noqa: E731
     return Table(THETA_I.astype(np.float32), twice(sigma), twice(ndf), np.array(layers).astype(np.float32))
 
@@ -97,25 +96,23 @@ def _sigma(brdf, fine):
 def _ndf(brdf, fine, sigma_at, height):
     """4 sigma f cos θr where light and view are both on the facet's normal: above the horizon for every tilt, hence without a step."""
     theta_m = np.minimum(fine * fine * (pi / 2), np.radians(89.9))
-    value = _outgoing(brdf, theta_m, theta_m, np.zeros(FINE))[0].mean(axis=1) * 4 * sigma_at(theta_m)
+    value = _outgoing(brdf, theta_m, theta_m, np.zeros(FINE)).mean(axis=1) * 4 * sigma_at(theta_m)
     return np.maximum(value, FAINT * max(value.max(), height))
 
 
 def _outgoing(brdf, theta_i, theta_m, phi_m):
-    """f cos θr (samples, channels) for light at theta_i and half vectors, 0 where the light is behind the facet, and their tilt.
+    """f cos θr (samples, channels) for light at theta_i and half vectors; 0 below the horizon and behind the facet.
 
-    A direction below the horizon gives minus the value of the one as far above it, and that one's tilt.
+    A smooth continuation below the horizon was tried: no better up to 87 degrees, and readers met negative values beyond.
     """
     sin_m = np.sin(theta_m)
     m = np.stack((sin_m * np.cos(phi_m), sin_m * np.sin(phi_m), np.cos(theta_m)), axis=-1)
     i = np.stack((np.sin(theta_i), np.zeros_like(theta_i), np.cos(theta_i)), axis=-1)
-    behind = 2 * np.sum(i * m, axis=-1, keepdims=True)
-    r = behind * m - i
-    cos_r = r[:, 2:].copy()
-    r[:, 2:] = np.maximum(np.abs(cos_r), 1e-9)
-    geom = rows(Geometry.from_vectors(i, r))
-    tilt = np.where(cos_r[:, 0] > 0, theta_m, np.arctan(np.sqrt(geom.tan2_h[:, 0])))
-    return np.where(behind > 0, brdf(geom) * cos_r, 0.0), tilt
+    along = 2 * np.sum(i * m, axis=-1, keepdims=True)
+    r = along * m - i
+    seen = (along > 0) & (r[:, 2:] > 1e-9)
+    geom = rows(Geometry.from_vectors(i, np.where(seen, r, [0.0, 0.0, 1.0])))
+    return np.where(seen, brdf(geom) * geom.cos_r, 0.0)
 
 
 # --- the container ----------------------------------------------------------------------------------
@@ -145,7 +142,7 @@ def fields(table: Table, comment: str, spectra: str, wavelengths: np.ndarray | N
     # solid angle of view directions per area of u_m: 4 (i·m) 2π² u sin θm; the sampling density a reader divides by
     toward = np.cos(table.theta_i)[:, None, None] * np.cos(theta_m) + np.sin(table.theta_i)[:, None, None] * np.sin(theta_m) * np.cos(phi_m)[:, None]
     carrier = np.interp(u, np.linspace(0, 1, FINE), table.ndf[0])
-    bright = np.maximum(table.spectra, 0).mean(axis=1) * carrier * np.maximum(toward, 0) * u * np.sin(theta_m)
+    bright = table.spectra.mean(axis=1) * carrier * np.maximum(toward, 0) * u * np.sin(theta_m)
     mean = bright.mean(axis=(1, 2), keepdims=True)
     bright = np.where(mean > 0, np.maximum(bright, 1e-3 * mean) / np.where(mean > 0, mean, 1.0), 1.0)  # nothing that reflects is left unsampled
     arrays = {
