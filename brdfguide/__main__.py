@@ -10,8 +10,13 @@ def main() -> None:
     try:
         if answered(sys.argv[1:]):
             return
-    except (KeyboardInterrupt, BrokenPipeError):
-        pass  # the full parser meets the same and says it in its own way
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except BrokenPipeError:  # who read us has enough
+        import os
+
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return
     from .cli import main
 
     main()

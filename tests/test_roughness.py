@@ -237,3 +237,12 @@ def test_batch_answers_each_line_and_keeps_the_worst_status():
     assert rows[0][:6] == ["80", "550", "0.857192", "8.57192", "0.781154", "7.81154"]
     assert rows[2][6] == "line 5: 'angle=x': 'x' is no number"
     assert len(rows) == 5 and all(len(row) == 7 for row in rows)
+
+
+def test_a_closed_pipe_ends_quietly():
+    program = [sys.executable, "-m", "brdfguide", "roughness", "--angle", "80"]
+    run = subprocess.Popen(program, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    run.stdout.close()
+    err = run.stderr.read()
+    run.stderr.close()
+    assert run.wait() == 0 and err == b""
