@@ -53,6 +53,7 @@ FLOORS = tuple(
         fitting
         levenberg
         misfit
+        next_measurement
         parts
         picture
         pixels

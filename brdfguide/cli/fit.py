@@ -41,6 +41,7 @@ def fit(
     plot: PlotOption = None,
     report: ReportOption = None,
     residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
+    next_: Annotated[bool, Option("--next", help="Name the directions where one more measurement would tell most.")] = False,
     jobs: Annotated[int, Option("--jobs", help="Processes for several files.", rich_help_panel=MANY)] = 1,
     out: Annotated[Path | None, Option("--out", help="Folder for an answer per file; run again to resume.", rich_help_panel=MANY)] = None,
     export: ExportOption = None,
@@ -69,6 +70,11 @@ def fit(
         ranked = compare(measurement, candidates, options, tell)
     result = document.fit_document(ranked, measurement, judged, timing=not no_timing)
     in_scene = of_ranking(scene, ranked, measurement, result, not no_timing, quiet) if scene else ""
+    if next_:
+        from ..next_measurement import propose
+
+        proposed = propose(ranked, measurement)
+        result["next"], in_scene = document.next_block(proposed), f"{in_scene}\n\n{proposed.text}"
     if residuals:
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
     if plot or report:
@@ -81,7 +87,7 @@ def fit(
         from ..report import terminal
 
         terminal.show(result, sketch_of(ranked, measurement), not quiet)
-        print(in_scene, end="")
+        print(in_scene, end="\n" if in_scene else "")
     else:
         print(ranking.ranking_text(result, notes=not quiet) + in_scene)
     if failed:

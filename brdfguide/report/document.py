@@ -4,6 +4,7 @@ import numpy as np
 
 from ..fitting import Fit
 from ..measurement import Finding, Measurement
+from ..next_measurement import Next
 from ..ranking import Ranking, Row
 from .data import data_block, finding
 from ..verdict import Verdict
@@ -25,6 +26,13 @@ def fit_document(ranking: Ranking, measurement: Measurement, judged: Verdict | N
         "warnings": [finding(each) for each in ranking.warnings],
         "left_out": [],
     })  # fmt: skip
+
+
+def next_block(proposed: Next) -> dict:
+    """`fit --next`: what one more measurement is for, and where."""
+    gain = "differ_by_noise" if proposed.purpose == "separate" else "standard_error_left"
+    places = [{"theta_i_deg": each.theta_i_deg, "theta_r_deg": each.theta_r_deg, "phi_deg": each.phi_deg, gain: each.gain} for each in proposed.directions]
+    return plain({"purpose": proposed.purpose, "of": list(proposed.subject), "directions": places})
 
 
 def _row(row: Row, measurement: Measurement, timing: bool) -> dict:
