@@ -20,6 +20,7 @@ from .models._base import Parameter
 
 LARGE, THREADS = 32_768, 2  # directions beyond which blocks and threads pay
 STEP = 1e-5  # of a coordinate, for central differences
+STEEPEST = 1e140
 SMALLEST = 1e-300  # where a law underflows its logarithm is taken here: far off, but finite
 
 
@@ -182,7 +183,8 @@ class Misfit:
         stacked = np.empty((channels, samples, len(keys)))
         for place, key in enumerate(keys):
             stacked[:, :, place] = (slopes[key] * factor).T
-        return stacked
+        # where the whole sum has underflowed, an amplitude's slope must not overflow when it is squared
+        return np.clip(stacked, -STEEPEST, STEEPEST, out=stacked) if factor.max() > STEEPEST else stacked
 
 
 def seen(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:

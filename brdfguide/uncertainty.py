@@ -97,8 +97,17 @@ def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[
         away = np.abs(value - parameter.origin) if parameter.log else np.maximum(np.abs(value), 1e-3 * span)
         if np.median(error / np.maximum(away, 1e-300)) > LOOSE and np.any(value > parameter.low):
             found.append(Finding(f"undetermined:{key}", f"the data do not determine {key}", "warning", "do not use its value by itself"))
+    found += _lobes_not_shown(layout, found)
     found += _ridge(layout, normal)
     return tuple(found)
+
+
+def _lobes_not_shown(layout: Layout, found) -> list[Finding]:
+    """Of two lobes of one law: where one shape of a lobe is not determined, nothing else of that lobe is."""
+    loose = [each.code.removeprefix("undetermined:") for each in found if each.code.startswith("undetermined:")]
+    lobes = {key.rpartition(".")[0] for key in loose if key.rpartition(".")[0][-1].isdigit()}
+    rest = [key for key in layout.parameters if key.rpartition(".")[0] in lobes and key not in loose]
+    return [Finding(f"undetermined:{key}", f"the data do not determine {key}, since they hardly show its lobe", "warning", "do not use its value by itself") for key in rest]
 
 
 def _ridge(layout: Layout, normal: Normal) -> list[Finding]:

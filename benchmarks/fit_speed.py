@@ -1,0 +1,137 @@
+"""Our fit against what a careful user would write: a plain SciPy script and lmfit, same data, same run; and whole commands, cold.
+
+    python benchmarks/fit_speed.py [MERL table]
+
+20,000 scattered directions, three channels, 3 % noise, a Lambertian body under a GGX lobe: one width, an albedo and an
+index for each channel, residuals ln(model/data). The scripts get the formula written out in NumPy, start from the
+defaults and let least_squares difference it (as nearly every published script does), and once more with our
+derivatives. Processor time, one thread, least of three turns. With a MERL table, also the whole command on it.
+"""
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[name] = "1"
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+import numpy as np  # noqa: E402
+
+from brdfguide import fitting, models  # noqa: E402
+from brdfguide.misfit import Layout, Misfit, metric  # noqa: E402
+from tests import synthetic  # noqa: E402
+
+DIRECTIONS, CHANNELS, TURNS = 20_000, 3, 3
+MODEL = models.get("lambertian+ggx")
+TRUTH = {"lambertian.albedo": np.array([0.30, 0.20, 0.10]), "ggx.alpha": 0.25, "ggx.n": np.array([1.50, 1.52, 1.55])}
+START, LOW, HIGH = np.r_[0.2, [0.5] * 3, [1.5] * 3], np.r_[1e-4, [0.0] * 3, [1.0001] * 3], np.r_[1.5, [1.0] * 3, [100.0] * 3]
+
+
+def plain(geom, x):
+    """The model as a script would have it: x = alpha, three albedos, three indices."""
+    alpha2, albedo, n = x[0] ** 2, x[1:4], x[4:7]
+    facets = alpha2 / (np.pi * (geom.tan2_h + alpha2) ** 2) * (1 + geom.tan2_h) ** 2
+    hidden = lambda cos: np.sqrt(alpha2 + (1 - alpha2) * cos**2)  # noqa: E731
+    mask = 2 / (geom.cos_r * hidden(geom.cos_i) + geom.cos_i * hidden(geom.cos_r))
+    c = geom.cos_d
+    g = np.sqrt(n**2 + c**2 - 1)
+    fresnel = 0.5 * ((g - c) / (g + c)) ** 2 * (1 + ((c * (g + c) - 1) / (c * (g - c) + 1)) ** 2)
+    return albedo / np.pi + fresnel * facets * mask / 4
+
+
+def with_scipy(data):
+    from scipy.optimize import least_squares
+
+    ln_data = np.log(data.brdf)
+    found = least_squares(lambda x: (np.log(plain(data.geom, x)) - ln_data).ravel(), START, bounds=(LOW, HIGH), x_scale=START)
+    return np.sqrt(np.mean(found.fun**2))
+
+
+def with_scipy_and_derivatives(data):
+    from scipy.optimize import least_squares
+
+    layout = Layout(MODEL, CHANNELS)
+    misfit, memory = Misfit(layout, data, metric("ln"), np.ones_like(data.brdf)), {}
+    split = lambda x: (x[:1], x[1:].reshape(CHANNELS, 2))  # noqa: E731
+
+    def residuals(x):
+        memory["x"], (memory["r"], memory["shared"], memory["own"]) = x.copy(), misfit(*split(x), True)
+        return memory["r"].T.ravel()
+
+    def jacobian(x):
+        if not np.array_equal(x, memory.get("x")):
+            residuals(x)
+        out = np.zeros((CHANNELS, len(data.brdf), 1 + 2 * CHANNELS))
+        out[:, :, :1] = memory["shared"]
+        for channel in range(CHANNELS):
+            out[channel, :, 1 + 2 * channel : 3 + 2 * channel] = memory["own"][channel]
+        return out.reshape(-1, out.shape[2])
+
+    shared, own = layout.encode(MODEL.defaults())
+    low, high = (np.r_[a, np.tile(b, CHANNELS)] for a, b in zip(layout.bounds(layout.shared), layout.bounds(layout.own)))
+    found = least_squares(residuals, np.r_[shared, own.ravel()], jac=jacobian, bounds=(low, high))
+    return np.sqrt(np.mean(found.fun**2))
+
+
+def with_lmfit(data):
+    import lmfit
+
+    ln_data, parameters = np.log(data.brdf), lmfit.Parameters()
+    for place, (value, low, high) in enumerate(zip(START, LOW, HIGH)):
+        parameters.add(f"x{place}", value=value, min=low, max=high)
+    found = lmfit.minimize(lambda p: (np.log(plain(data.geom, np.array(list(p.valuesdict().values())))) - ln_data).ravel(), parameters)
+    return np.sqrt(np.mean(found.residual**2))
+
+
+def ours(data):
+    return fitting.fit(MODEL, data).rms_ln
+
+
+def cold(path, *words) -> tuple[float, float, float]:
+    """Processor seconds, wall seconds and peak memory [MB] of a whole command in a new process."""
+    before, began = os.times(), time.perf_counter()
+    subprocess.run([sys.executable, "-m", "brdfguide", "fit", str(path), "--quiet", *words], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    after, wall = os.times(), time.perf_counter() - began
+    used = after.children_user + after.children_system - before.children_user - before.children_system
+    return used, wall, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+
+
+def main(table: str | None) -> None:
+    data = synthetic.surface(MODEL, synthetic.hemisphere(DIRECTIONS), TRUTH, noise=0.03, seed=1, channels=CHANNELS)
+    assert np.allclose(plain(data.geom, np.r_[0.25, TRUTH["lambertian.albedo"], TRUTH["ggx.n"]]), MODEL(data.geom, TRUTH), rtol=1e-12)
+    rivals = {"ours: starts, fit, intervals, doubts": ours, "SciPy, differences": with_scipy, "SciPy, our derivatives": with_scipy_and_derivatives, "lmfit": with_lmfit}
+    least, error = {}, {}
+    for _ in range(TURNS):
+        for name, fit in rivals.items():
+            fresh = synthetic.surface(MODEL, synthetic.hemisphere(DIRECTIONS), TRUTH, noise=0.03, seed=1, channels=CHANNELS)
+            began = time.process_time()
+            try:
+                error[name] = fit(fresh)
+            except ImportError:
+                continue
+            least[name] = min(least.get(name, np.inf), time.process_time() - began)
+    print(f"{DIRECTIONS} directions x {CHANNELS} channels, one model, processor time of the fit alone")
+    for name in rivals:
+        if name in least:
+            print(f"  {name:38} {least[name]:6.2f} s  {least[name] / least[next(iter(rivals))]:5.1f} x   rms ln {error[name]:.6f}")
+        else:
+            print(f"  {name:38} absent: not installed")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "data.csv"
+        angles = (data.geom.theta_i_deg[:, 0], 0 * data.geom.theta_r_deg[:, 0], data.geom.theta_r_deg[:, 0], data.geom.phi_deg[:, 0])
+        np.savetxt(path, np.column_stack((*angles, data.brdf)), "%.7g", ",", header="theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,450,550,650", comments="")
+        runs = [cold(path, *words) for words in ((), (), ())]
+        print("whole command, cold, all default candidates with uncertainties and held-out errors: %.2f s processor, %.0f MB" % (min(run[0] for run in runs), runs[-1][2]))
+    if table:
+        used, wall, memory = cold(table)
+        print(f"{Path(table).name}: {used:.1f} s processor, {wall:.1f} s by the clock, {memory:.0f} MB")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else None)
