@@ -20,7 +20,7 @@ from .models._base import Parameter
 
 LARGE, THREADS = 32_768, 2  # directions beyond which blocks and threads pay
 STEP = 1e-5  # of a coordinate, for central differences
-STEEPEST = 1e140
+STEEPEST = 1e140  # d residual / d coordinate beyond which only its sign is kept
 SMALLEST = 1e-300  # where a law underflows its logarithm is taken here: far off, but finite
 
 
@@ -169,7 +169,9 @@ class Misfit:
             return self._residual(seen(self.layout.model, self.measurement, values))
         f, slopes = seen_with_slopes(self.layout, self.measurement, values)
         residual = self._residual(f)
-        factor = self._root_weights * (1 / self._data if self.metric.relative else self.metric.slope(np.maximum(f, SMALLEST)))
+        # a law that has underflowed has no slope left to follow
+        scale = 1 / self._data if self.metric.relative else np.where(f > SMALLEST, self.metric.slope(np.maximum(f, SMALLEST)), 0.0)
+        factor = self._root_weights * scale
         return residual, self._stack(self.layout.shared, slopes, factor), self._stack(self.layout.own, slopes, factor)
 
     def _residual(self, f):

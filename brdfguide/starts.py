@@ -65,7 +65,8 @@ def amplitudes_by_channel(layout: Layout, measurement: Measurement, values: dict
     fixed = np.array([_is_fixed(layout, term) for term in terms])
     limits = np.array([term.model.parameter(term.model.amplitude).high if term.model.amplitude else 1.0 for term in terms])
     amplitudes = non_negative(columns, fixed, limits, seen)
-    lowest = 1e-6 * np.max(amplitudes, axis=0)  # a start of exactly 0 would sit on its bound
+    # a start of exactly 0 would sit on its bound: at least a thousandth of what would carry the data by itself
+    lowest = np.minimum(1e-3 / np.maximum(np.mean(columns, axis=(0, 1)), 1e-300), 0.5 * limits)
     for place, term in enumerate(terms):
         if not fixed[place]:
             values[f"{term.label}.{term.model.amplitude}"] = np.maximum(amplitudes[:, place], lowest[place]) * np.ones(channels)
