@@ -84,6 +84,8 @@ def _finite(law: str, v: dict, wavelength: float) -> str:
             return call(v["albedo"], of="ci, cr")
         case "oren-nayar":
             return call(v["albedo"], v["spread"], of="ci, cr, p")
+        case "eon":
+            return call(v["albedo"], v["roughness"], of="ci, cr, p")
         case "phong" | "phong-lewis" | "blinn":
             return call(v["ks"], v["exponent"])
         case "ward" | "ward-duer" | "ward-gmd":

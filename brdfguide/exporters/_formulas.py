@@ -40,6 +40,11 @@ FORMULAS = (
     ("oren2", "ci, cr, p, albedo, s2, ss", "oren3(ci, cr, p, albedo, s2, acos(least(ci, cr)), acos(most(ci, cr)),"
      " choose(ss - 1.0e-6, most(least(p / most(ss, 1.0e-6), 1.0), -1.0), 0.0))"),
     ("oren_nayar", "ci, cr, p, albedo, spread", "oren2(ci, cr, p, albedo, spread * spread, sqrt(sin2(ci) * sin2(cr)))"),
+    ("lost3", "c, s, t, rest", "(1.57079633 - t + t * rest + s * s * c - 0.66666667 * (rest + s * c * (1.0 + s + s * s) / (1.0 + s))) / PI"),
+    ("lost", "c", "lost3(c, sqrt(sin2(c)), acos(c), c * c / (1.0 + sqrt(sin2(c))))"),
+    ("eon2", "ci, cr, p, albedo, r, a, mean", "a * albedo / PI * (1.0 + r * p / choose(p, most(ci, cr), 1.0))"
+     " + a * r * albedo * albedo * mean / (1.0 - albedo * (1.0 - mean)) / PI * lost(ci) * lost(cr) / 0.215305197"),
+    ("eon", "ci, cr, p, albedo, r", "eon2(ci, cr, p, albedo, r, 1.0 / (1.0 + 0.287793409 * r), (1.0 + 0.0724882125 * r) / (1.0 + 0.287793409 * r))"),
     # cosine lobes
     ("mirror_lobe", "d2, n", "choose(2.0 - d2, exp(n * ln1m(0.5 * d2)), 0.0)"),
     ("phong", "ci, cr, q, ks, n", "ks * mirror_lobe(off2(ci, cr, q), n) / ci"),

@@ -24,6 +24,8 @@ def tree(surface: Surface, geom: Geometry | None, target: str):
     """The plugin tree and its Statement."""
     choice = choose(surface, geom, _candidates(surface)) if has_finite(surface) else None
     mirror, mirror_rms = _mirror(surface) if surface.has_mirror else (None, 0.0)
+    if choice is None and mirror is None:  # a mirror of a reflectance too small to be sent anywhere
+        return _diffuse(np.zeros(3), 1.0), _mirror_statement(surface, target, 0.0)
     if choice is None:
         statement = _mirror_statement(surface, target, mirror_rms)
         return _conductor(mirror, 1.0), statement

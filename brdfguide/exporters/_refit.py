@@ -9,9 +9,8 @@ from dataclasses import dataclass, field
 from itertools import product
 
 import numpy as np
-from scipy.optimize import nnls
 
-from .. import levenberg
+from .. import levenberg, starts
 from ..geometry import Geometry
 from ..models._base import Parameter
 from ._directions import rms_ln
@@ -73,8 +72,9 @@ def _start(law: Law, values: dict, wanted, geom) -> tuple[float, dict]:
         basis = [np.broadcast_to(law.brdf(geom, **values, **{**nothing, p.name: nothing[p.name] + 1.0}), wanted.shape) - rest for p in linear]
         for colour in range(colours):
             counted = np.isfinite(wanted[:, colour])
-            matrix = np.array([b[counted, colour] / wanted[counted, colour] for b in basis]).T
-            amounts, _ = nnls(matrix, 1 - rest[counted, colour] / wanted[counted, colour])
+            columns = np.array([each[counted, colour] / wanted[counted, colour] for each in (*basis, rest)]).T[None]
+            held = np.array([False] * len(basis) + [True])
+            amounts = starts.non_negative(columns, held, np.full(len(held), np.inf))[0]
             for p, amount in zip(linear, amounts):
                 # a zero amplitude has no logarithm's slope to leave it by, and a bound none to come back
                 amount = np.clip(amount, max(p.low, 1e-4), 0.98 * p.high)

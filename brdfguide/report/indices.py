@@ -40,8 +40,8 @@ def named(name: str, wavelength: float) -> dict:
         raise InputError(f"{error}; `pip install 'brdfguide[optics]'` adds several hundred by formula (Au, SiO2)")
     entries, near = optical_constants.find(name, wavelength)
     if not entries:
-        hint = f"; there are, at some wavelength: {', '.join(near[:12])}" if near else ""
-        raise InputError(f"no entry '{name}' at {1000 * wavelength:g} nm in refractiveindex.info{hint}")
+        hint = f"there are, at some wavelength: {', '.join(near[:12])}" if near else choices("substance", name, [each.name for each in substances.SUBSTANCES])
+        raise InputError(f"no entry '{name}' at {1000 * wavelength:g} nm in refractiveindex.info; {hint}")
     rows = [_entry(f"{e.material}/{e.page}", e.n, e.k, wavelength, e.source, e.k > 0.5) for e in entries]
     f0 = [row["f0"] for row in rows]
     warnings = []

@@ -17,7 +17,7 @@ from ..errors import InputError
 from . import sheet
 from .plain import plain
 
-PACKAGES = ("numpy", "scipy", "matplotlib", "pyyaml")
+PACKAGES = ("numpy", "matplotlib", "pyyaml")
 
 
 def write(document: dict, path, figures=(), command: str = "", files=()) -> None:

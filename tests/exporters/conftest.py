@@ -33,6 +33,7 @@ EVERY_LAW = {
     "lambertian": coloured("lambertian", lambertian__albedo=[0.1, 0.4, 0.8]),
     "coupled": surface("coupled", coupled__albedo=0.4),
     "oren-nayar": surface("oren-nayar", oren_nayar__albedo=0.6),
+    "eon": surface("eon", eon__albedo=0.7, eon__roughness=0.8),
     "phong": surface("lambertian+phong", lambertian__albedo=0.2, phong__exponent=120.0),
     "phong-lewis": surface("lambertian+phong-lewis", lambertian__albedo=0.3, phong_lewis__exponent=40.0),
     "blinn": surface("lambertian+blinn", lambertian__albedo=0.1),
