@@ -72,7 +72,8 @@ def _start(law: Law, values: dict, wanted, geom) -> tuple[float, dict]:
         basis = [np.broadcast_to(law.brdf(geom, **values, **{**nothing, p.name: nothing[p.name] + 1.0}), wanted.shape) - rest for p in linear]
         for colour in range(colours):
             counted = np.isfinite(wanted[:, colour])
-            columns = np.array([each[counted, colour] / wanted[counted, colour] for each in (*basis, rest)]).T[None]
+            # beyond 1e100 times what is wanted it does not matter by how much, and its square must not overflow
+            columns = np.minimum([each[counted, colour] / wanted[counted, colour] for each in (*basis, rest)], 1e100).T[None]
             held = np.array([False] * len(basis) + [True])
             amounts = starts.non_negative(columns, held, np.full(len(held), np.inf))[0]
             for p, amount in zip(linear, amounts):
