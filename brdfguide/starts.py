@@ -28,7 +28,7 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
     data, usable = _channel_mean(measurement, rows)
     geom, data = geom[usable], np.maximum(data[usable], FAINTEST * np.max(data[usable]))
     axes, bases = zip(*(_term_grid(layout, term, geom) for term in layout.model.terms))
-    shapes = list(product(*(range(len(axis)) for axis in axes)))
+    shapes = [shape for shape in product(*(range(len(axis)) for axis in axes)) if _in_order(layout, shape)]
     if len(shapes) > MOST_SHAPES:
         shapes = shapes[:: len(shapes) // MOST_SHAPES + 1]
     places = np.array(shapes)
@@ -65,8 +65,9 @@ def amplitudes_by_channel(layout: Layout, measurement: Measurement, values: dict
     fixed = np.array([_is_fixed(layout, term) for term in terms])
     limits = np.array([term.model.parameter(term.model.amplitude).high if term.model.amplitude else 1.0 for term in terms])
     amplitudes = non_negative(columns, fixed, limits, seen)
-    # a start of exactly 0 would sit on its bound: at least a thousandth of what would carry the data by itself
-    lowest = np.minimum(1e-3 / np.maximum(np.mean(columns, axis=(0, 1)), 1e-300), 0.5 * limits)
+    # a start of exactly 0 would sit on its bound; where all are 0, a thousandth of what would carry the data by itself
+    lowest = 1e-6 * np.max(amplitudes, axis=0)
+    lowest = np.where(lowest > 0, lowest, np.minimum(1e-3 / np.maximum(np.mean(columns, axis=(0, 1)), 1e-300), 0.5 * limits))
     for place, term in enumerate(terms):
         if not fixed[place]:
             values[f"{term.label}.{term.model.amplitude}"] = np.maximum(amplitudes[:, place], lowest[place]) * np.ones(channels)
@@ -140,6 +141,13 @@ def _along(parameter, start) -> tuple[float, ...]:
     else:
         values = tuple(np.linspace(parameter.low, parameter.high, SPREAD + 2)[1:-1])
     return values if start is None else tuple(sorted({*values, float(np.mean(start))}))
+
+
+def _in_order(layout: Layout, shape) -> bool:
+    """Of lobes that may be exchanged only one order is tried."""
+    labels = [term.label for term in layout.model.terms]
+    alike = [[shape[labels.index(label)] for label in group] for group in layout.alike]
+    return all(places == sorted(places) for places in alike)
 
 
 def _is_fixed(layout: Layout, term) -> bool:

@@ -13,6 +13,7 @@ from .ranking import Ranking, recommend
 
 FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
 SAMPLES = 500  # directions for the repeated fits
+WORSE = 1.25  # times the held-out error of the best single lobe, beyond which the same is said (ours)
 IMITATION = 2.5  # held-out error over fitted error beyond which a model is said to imitate (ours)
 
 
@@ -77,13 +78,20 @@ def growth(fit: Fit, measurement: Measurement) -> dict | None:
     }  # fmt: skip
 
 
-def imitation(fit: Fit, held: HeldOut | None) -> Finding | None:
-    """A model of several lobes that is right only at the angles it was fitted to."""
-    lobes = sum(term.label.rpartition(".")[2].isdigit() for term in fit.model.terms)
-    if held is None or lobes < 2 or held.rms_ln < IMITATION * fit.rms_ln:
+def imitation(fit: Fit, held: HeldOut | None, single: float = np.inf) -> Finding | None:
+    """A model of several lobes that is right only at the angles it was fitted to: held out it errs several times as much, or
+    clearly more than the best model of one lobe does there (`single`)."""
+    if held is None or _lobes(fit) < 2 or held.rms_ln < min(IMITATION * fit.rms_ln, WORSE * single):
         return None
-    text = f"held-out error {held.rms_ln:.2g} against {fit.rms_ln:.2g} fitted: its lobes imitate the data at the fitted angles only"
+    text = f"held-out error {held.rms_ln:.2g} against {fit.rms_ln:.2g} fitted"
+    text += f", where a single lobe has {single:.2g}" if held.rms_ln >= WORSE * single else ""
+    text += ": its lobes imitate the data at the fitted angles only"
     return Finding("imitates", text, "warning", "do not use it between or beyond these angles")
+
+
+def _lobes(fit: Fit) -> int:
+    """How many of its terms are lobes of one kind."""
+    return sum(term.label.rpartition(".")[2].isdigit() for term in fit.model.terms)
 
 
 def thinned(measurement: Measurement) -> Measurement:
@@ -116,11 +124,14 @@ def _peaks(measurement: Measurement, rows, channel: int, theta: float) -> tuple[
 
 def validated(ranking: Ranking, measurement: Measurement, options: Options = Options(), progress=lambda name: None) -> Ranking:
     """The same ranking with growth, held-out errors of those that were refined, and a warning for models that only imitate."""
-    rows, few = [], thinned(measurement)
+    few, helds = thinned(measurement), []
     for row in ranking.rows:
         progress(row.fit.name)
-        held = None if row.fit.has("coarse") else held_out(row.fit, few, options)
-        warning = imitation(row.fit, held)
+        helds.append(None if row.fit.has("coarse") else held_out(row.fit, few, options))
+    single = min((held.rms_ln for row, held in zip(ranking.rows, helds) if held and _lobes(row.fit) < 2), default=np.inf)
+    rows = []
+    for row, held in zip(ranking.rows, helds):
+        warning = imitation(row.fit, held, single)
         warnings = row.warnings + ((warning,) if warning else ())
         rows.append(replace(row, held_out=held, growth=growth(row.fit, measurement), warnings=warnings))
     recommended, because = recommend(rows)
