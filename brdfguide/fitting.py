@@ -245,7 +245,7 @@ def _spread_over_channels(own, channels: int):
     return np.stack([np.interp(np.arange(channels), at, column) for column in own.T], axis=1) if own.shape[1] else np.zeros((channels, 0))
 
 
-def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float, most: int = 100) -> levenberg.Minimum:
+def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float, most: int = 400) -> levenberg.Minimum:
     low, high = layout.bounds(layout.shared)
     own_low, own_high = layout.bounds(layout.own)
     misfit = Misfit(layout, measurement, scale, weights)
