@@ -266,7 +266,8 @@ def _marks(m: Measurement):
         yield Finding("saturated", text, "warning", "peaks are higher than measured", numbers=(("values", count), ("limit_per_sr", float(top))))
     negative = int(np.count_nonzero(m.brdf < 0))
     if negative:
-        text = f"{negative} values are negative: noise about zero; they take no part in a fit"
+        why = "noise about zero" + (", or a colour outside sRGB" if set(m.channels) == set("RGB") else "")
+        text = f"{negative} values are negative: {why}; they take no part in a fit"
         yield Finding("negative-values", text, "warning" if negative > 0.02 * m.brdf.size else "note", numbers=(("values", negative),))
 
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from .measurement import Measurement
 
-RINGS, SPOKES = 16, 24  # quadrature: equal steps in sin² theta_r, and in azimuth over the half circle
+RINGS, SPOKES = 24, 24  # quadrature about the mirror direction, on the disc where areas are cos theta_r dω
 NEIGHBOURS = 8
-MOST = 1500  # samples of one incidence that are looked at
+MOST = 4000  # samples of one incidence that are looked at
 INCIDENCES = 7  # how many are integrated
 
 
@@ -83,17 +83,27 @@ def _of_hemisphere(geom, level, reach: float) -> float | None:
     """Integral of f cos over the directions within `reach` [deg]; None where less than four azimuths were measured."""
     phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))
     top = np.sin(np.radians(reach)) ** 2
-    rings = np.sqrt((np.arange(RINGS) + 0.5) / RINGS * top)
     if len(np.unique(np.round(np.degrees(phi) / 10))) < 4:
         if geom.theta_i_deg[0, 0] > 5:
             return None
         order = np.argsort(geom.sin_r[:, 0])  # light along the normal: the same all around
-        fine = np.sqrt((np.arange(1000) + 0.5) / 1000 * top)
-        return float(np.exp(np.interp(fine, geom.sin_r[order, 0], level[order])).mean() * np.pi * top)
+        share = (np.arange(1000) + 0.5) / 1000
+        fine = np.interp(np.sqrt(top) * share**3, geom.sin_r[order, 0], level[order])
+        return float(np.average(np.exp(fine), weights=share**5) * np.pi * top)
     places = np.stack([geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi)], axis=1)
-    spokes = (np.arange(SPOKES) + 0.5) / SPOKES * np.pi
-    nodes = np.stack([np.outer(rings, np.cos(spokes)).ravel(), np.outer(rings, np.sin(spokes)).ravel()], axis=1)
-    return float(np.exp(_interpolated(nodes, places, level)).mean() * np.pi * top)
+    nodes, areas = _about_the_mirror(min(float(geom.sin_i[0, 0]), 0.98 * np.sqrt(top)), np.sqrt(top))
+    return float(np.exp(_interpolated(nodes, places, level)) @ areas * np.pi * top)
+
+
+def _about_the_mirror(distance: float, radius: float):
+    """Nodes on the upper half of the disc of projected directions, crowded about its point (-distance, 0), and their shares of its area."""
+    angle = (np.arange(SPOKES) + 0.5) / SPOKES * np.pi
+    edge = distance * np.cos(angle) + np.sqrt(radius**2 - (distance * np.sin(angle)) ** 2)  # how far each spoke reaches
+    share = (np.arange(RINGS) + 0.5) / RINGS
+    reached = edge * share[:, None] ** 3
+    areas = reached * edge * share[:, None] ** 2
+    nodes = np.stack([reached * np.cos(angle) - distance, reached * np.sin(angle)], axis=-1).reshape(-1, 2)
+    return nodes, areas.ravel() / areas.sum()
 
 
 def _interpolated(nodes, places, level) -> np.ndarray:

@@ -5,8 +5,7 @@ With u(θ) = √(2θ/π) and wrapped azimuths, h = normalise(i + r), u_m = (u(θ
     f cos θ_r = c(s(u_m)) ndf(u_m) / (4 sigma(u_i)),       s = the cumulative distribution of `vndf` at u_m
 
 `vndf` and c (`rgb` or `spectra`) are tables for each θ_i (and φ_i where the sample is anisotropic) between whose slices one
-goes linearly. A table is no scatter of samples: directions are chosen on a grid even in u_m, which is dense near the
-mirror direction, at every stored θ_i.
+goes linearly. c is even in s, so that every node of it is one direction that was aimed at: all of them are the measurement.
 
 Source: Dupuy and Jakob 2018, "An adaptive parameterization for efficient material acquisition and rendering".
 """
@@ -15,12 +14,11 @@ import numpy as np
 
 from ..geometry import Geometry, rows
 from ..measurement import Finding, Measurement
-from . import _tensor
+from . import _tensor, _warp
 from ._base import RGB_UM, Format, Options, Source, averaged, nominal_colours
 
 LIMIT = 2**30
-GRID_THETA, GRID_PHI = 40, 36  # half-vector directions for each incidence, even in u_m
-STEEPEST_DEG = 80.0  # the table divides by cos theta_r: beyond, its own noise is what one sees
+HORIZON = np.cos(np.radians(89.99))  # least cosine of a direction; a slice at 90 degrees closes the table, no light is reflected
 NEEDED = ("phi_i", "theta_i", "sigma", "ndf", "vndf")
 
 
@@ -32,13 +30,18 @@ def read(source: Source, options: Options) -> Measurement:
     """Raises InputError for a damaged container and missing fields. An anisotropic table gives its mean, marked as outside the guide."""
     fields = _checked(source, _tensor.fields(source))
     phi_i = _turns(fields)
-    theta_i = np.degrees(fields["theta_i"].astype(float))
-    theta_i = theta_i[theta_i <= STEEPEST_DEG]
-    geom = _directions(theta_i)
-    brdf = _averaged(fields, geom, phi_i)
+    geom, stored, below = _stored(fields, phi_i)
+    if not len(geom):
+        raise source.error("no node of the table lies above the horizon")
+    brdf = stored * _facets(fields, geom) if phi_i is None else _averaged(fields, geom, phi_i)
     channels, um, notes = _channels(fields)
-    text = f"a table: {len(geom)} directions chosen at its {len(theta_i)} stored incidences, even in the root of the half angle, to {STEEPEST_DEG:g} degrees"
-    found = [Finding("table", text, consequence="dense near the mirror direction", numbers=(("directions", len(geom)),))]
+    what = "the whole table" if phi_i is None else "the nodes of all rotations by turns"
+    text = f"{what}: {len(geom)} directions, each a node that counts alike; {below} nodes lie below the horizon"
+    consequence = "nodes crowd where the surface sends the light"
+    found = [Finding("table", text, consequence=consequence, numbers=(("directions", len(geom)), ("below_horizon", below)))]
+    steep = int(np.count_nonzero(geom.theta_r_deg > 80))
+    text = f"{steep} directions lie within 10 degrees of grazing, where the stored values were divided by a small cos theta_r"
+    found.append(Finding("near-grazing", text, consequence="their errors grow alike", option="--theta-max 80", numbers=(("directions", steep),)))
     if phi_i is not None:
         found.append(averaged(len(phi_i), _spread(fields, geom, phi_i, brdf), options))
     return Measurement(geom.at(um), brdf, channels, name=source.name, format="RGL .bsdf", findings=(*found, *notes))
@@ -77,29 +80,30 @@ def _averaged(fields, geom: Geometry, phi_i) -> np.ndarray:
 
 def evaluate(fields, geom: Geometry, phi_i_deg: float = 0.0) -> np.ndarray:
     """BRDF [1/sr] (samples, channels) at directions (samples, 1) with the light at azimuth `phi_i_deg` of the sample."""
+    slices = _slices(fields, np.arctan2(geom.sin_i, geom.cos_i)[:, 0], np.radians(phi_i_deg))
+    s = _warp.pushed(fields["vndf"].astype(float), slices, _half(fields, geom, phi_i_deg))
+    c = sum(weight[:, None] * _warp.bilinear(_table(fields), s, where) for where, weight in slices)
+    return np.maximum(c, 0.0) * _facets(fields, geom, phi_i_deg)
+
+
+def _facets(fields, geom: Geometry, phi_i_deg: float = 0.0) -> np.ndarray:
+    """ndf(u_m) / (4 sigma(u_i) cos theta_r), (samples, 1)."""
     theta_i = np.arctan2(geom.sin_i, geom.cos_i)[:, 0]
-    phi_i = np.radians(phi_i_deg)
-    isotropic = len(fields["phi_i"]) <= 2
-    theta_h, phi_h = _half(geom)
-    u_m = np.stack([_u(theta_h), np.mod((phi_h + (0.0 if isotropic else phi_i) + np.pi) / (2 * np.pi), 1.0)])
-    u_i = np.stack([_u(theta_i), np.full_like(theta_i, np.mod((phi_i + np.pi) / (2 * np.pi), 1.0))])
-    slices = _slices(fields, theta_i, phi_i)
-    s = _pushed(fields["vndf"].astype(float), slices, u_m)
-    table = fields["rgb"] if "rgb" in fields else fields["spectra"]
-    colour = sum(weight[:, None] * _bilinear(table, s, where) for where, weight in slices)
-    factor = _bilinear(fields["ndf"], u_m) / (4 * _bilinear(fields["sigma"], u_i) * geom.cos_r[:, 0])
-    return np.maximum(colour, 0.0) * factor[:, None]
+    u_i = np.stack([_u(theta_i), np.full_like(theta_i, np.mod(np.radians(phi_i_deg) / (2 * np.pi) + 0.5, 1.0))])
+    ratio = _warp.bilinear(fields["ndf"], _half(fields, geom, phi_i_deg)) / (4 * _warp.bilinear(fields["sigma"], u_i))
+    return ratio[:, None] / geom.cos_r
+
+
+def _half(fields, geom: Geometry, phi_i_deg: float):
+    """u_m: the half vector's zenith, and its azimuth counted from the light's where the sample is isotropic."""
+    theta, phi = np.arctan(np.sqrt(geom.tan2_h))[:, 0], np.radians(geom.phi_deg)
+    phi = np.arctan2(geom.sin_r * np.sin(phi), geom.sin_i + geom.sin_r * np.cos(phi))[:, 0]
+    turn = 0.0 if len(fields["phi_i"]) <= 2 else np.radians(phi_i_deg)
+    return np.stack([_u(theta), np.mod((phi + turn + np.pi) / (2 * np.pi), 1.0)])
 
 
 def _u(theta):
     return np.sqrt(2 * theta / np.pi)
-
-
-def _half(geom: Geometry):
-    """Zenith of the half vector, and its azimuth counted from the light's [rad]."""
-    theta = np.arctan(np.sqrt(geom.tan2_h))[:, 0]
-    phi = np.radians(geom.phi_deg)
-    return theta, np.arctan2(geom.sin_r * np.sin(phi), geom.sin_i + geom.sin_r * np.cos(phi))[:, 0]
 
 
 def _slices(fields, theta_i, phi_i: float):
@@ -119,59 +123,46 @@ def _bracket(nodes, x):
     return [(low, 1 - weight), (low + 1, weight)]
 
 
-def _cell(u, shape):
-    """Indices and weights of the cell of [0,1]² in which `u` lies; tables are [y, x]."""
-    x, y = u[0] * (shape[-1] - 1), u[1] * (shape[-2] - 1)
-    i, j = np.clip(x.astype(int), 0, shape[-1] - 2), np.clip(y.astype(int), 0, shape[-2] - 2)
-    return i, j, x - i, y - j
+def _stored(fields, phi_i):
+    """Directions (samples, 1) of the nodes of the table, c there (samples, channels), and how many nodes lie below the horizon.
+
+    Of an anisotropic table every rotation gives its share of the rows, so that they are no more than those of one rotation.
+    """
+    turns = 1 if phi_i is None else len(phi_i) - 1
+    lights, views, stored, nodes = [], [], [], 0
+    for t, theta_i in enumerate(fields["theta_i"].astype(float)):
+        light = np.array([np.sin(theta_i), 0.0, np.cos(theta_i)])
+        for p in range(turns):
+            half, values = _nodes(fields, p, t, slice(p, -1, turns), 0.0 if phi_i is None else np.radians(phi_i[p]))
+            view = 2 * (half @ light)[:, None] * half - light
+            view /= np.linalg.norm(view, axis=-1, keepdims=True)
+            lit = (view[:, 2] > HORIZON) & (light[2] > HORIZON)
+            nodes += len(lit)
+            views.append(view[lit])
+            lights.append(np.broadcast_to(light, views[-1].shape))
+            stored.append(values[lit])
+    lights, views, stored = (np.concatenate(each) for each in (lights, views, stored))
+    return rows(Geometry.from_vectors(lights, views)), stored, nodes - len(views)
 
 
-def _bilinear(table, u, where=None):
-    """Values of a table [y, x], or of the slice `where` of [phi, theta, (channel,) y, x] as (samples, channels)."""
-    i, j, a, b = _cell(u, table.shape)
-    if where is None:
-        corner = lambda dj, di: table[j + dj, i + di].astype(float)  # noqa: E731
-    else:
-        corner = lambda dj, di: table[where[0], where[1], :, j + dj, i + di].astype(float)  # noqa: E731
-        a, b = a[:, None], b[:, None]
-    return (1 - b) * ((1 - a) * corner(0, 0) + a * corner(0, 1)) + b * ((1 - a) * corner(1, 0) + a * corner(1, 1))
+def _nodes(fields, p: int, t: int, picked: slice, turn: float):
+    """Half vectors (nodes, 3) of some rows of one slice, with the light at azimuth 0, and what is stored there (nodes, channels).
+
+    The seam is stored as the first row and as the last, which is left out; all nodes at u = 0 are the mirror direction and have their mean.
+    """
+    table = _table(fields)
+    u = _warp.pulled(fields["vndf"][p, t].astype(float), table.shape[-2:])[:, picked].reshape(2, -1)
+    values = np.moveaxis(table[p, t], 0, -1)[picked].astype(float).reshape(u.shape[1], table.shape[2])
+    mirror = np.flatnonzero(u[0] == 0)
+    if len(mirror):
+        values[mirror[0]] = values[mirror].mean(axis=0)
+    theta, phi = 0.5 * np.pi * u[0] ** 2, 2 * np.pi * u[1] - np.pi - turn
+    half = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1)
+    return np.delete(half, mirror[1:], axis=0), np.delete(values, mirror[1:], axis=0)
 
 
-def _pushed(density, slices, u):
-    """The point of [0,1]² to which the cumulative distribution of `density` carries `u`: first along x within the row, then along y."""
-    along = np.zeros_like(density)
-    along[..., 1:] = np.cumsum(0.5 * (density[..., 1:] + density[..., :-1]), axis=-1)
-    row = along[..., -1]
-    upward = np.zeros_like(row)
-    upward[..., 1:] = np.cumsum(0.5 * (row[..., 1:] + row[..., :-1]), axis=-1)
-    total = upward[..., -1:]
-    along, density, row, upward = along / total[..., None], density / total[..., None], row / total, upward / total
-    i, j, a, b = _cell(u, density.shape)
-
-    def blended(table, *index):
-        return sum(weight * table[(*where, *index)] for where, weight in slices)
-
-    left = (1 - b) * blended(density, j, i) + b * blended(density, j + 1, i)
-    right = (1 - b) * blended(density, j, i + 1) + b * blended(density, j + 1, i + 1)
-    below, above = blended(row, j), blended(row, j + 1)
-    x = a * (left + 0.5 * a * (right - left)) + (1 - b) * blended(along, j, i) + b * blended(along, j + 1, i)
-    width = (1 - b) * below + b * above
-    y = b * (below + 0.5 * b * (above - below)) + blended(upward, j)
-    x = np.divide(x, width, out=np.full_like(x, 0.5), where=width > 0)
-    return np.stack([np.clip(x, 0, 1), np.clip(y, 0, 1)])
-
-
-def _directions(theta_i_deg) -> Geometry:
-    """Reflected directions whose half vectors lie on a grid even in u_m, above the horizon and not too near it."""
-    u = (np.arange(GRID_THETA) + 0.5) / GRID_THETA
-    theta_h = 0.5 * np.pi * u**2
-    phi_h = 2 * np.pi * (np.arange(GRID_PHI) + 0.5) / GRID_PHI
-    theta_i, theta_h, phi_h = (a.reshape(-1) for a in np.meshgrid(np.radians(theta_i_deg), theta_h, phi_h, indexing="ij"))
-    light = np.stack([np.sin(theta_i), 0 * theta_i, np.cos(theta_i)], axis=-1)
-    half = np.stack([np.sin(theta_h) * np.cos(phi_h), np.sin(theta_h) * np.sin(phi_h), np.cos(theta_h)], axis=-1)
-    reflected = 2 * np.sum(light * half, axis=-1, keepdims=True) * half - light
-    keep = (reflected[:, 2] >= np.cos(np.radians(STEEPEST_DEG))) & (np.sum(light * half, axis=-1) > 0)
-    return rows(Geometry.from_vectors(light[keep], reflected[keep] / np.linalg.norm(reflected[keep], axis=-1, keepdims=True)))
+def _table(fields):
+    return fields["rgb"] if "rgb" in fields else fields["spectra"]
 
 
 def _channels(fields):
@@ -202,7 +193,8 @@ def _checked(source: Source, fields):
     if thetas > 1 and np.any(np.diff(fields["theta_i"]) <= 0) or phis > 1 and np.any(np.diff(fields["phi_i"]) <= 0):
         raise source.error("the stored incidences do not rise")
     for name in ("vndf", "ndf", "sigma"):
-        if np.any(fields[name] < 0) or not np.any(fields[name] > 0):
+        slices = fields[name].reshape(-1, fields[name].shape[-2] * fields[name].shape[-1])
+        if np.any(fields[name] < 0) or not np.all(np.any(slices > 0, axis=1)):
             raise source.error(f"field '{name}' is negative somewhere, or zero everywhere; a density is neither")
     return fields
 
