@@ -14,6 +14,9 @@ from ..geometry import Geometry, in_plane, rows
 FAINTEST = 1e-3  # of the brightest value at the same incidence
 DARKEST = 1e-3  # 1/sr: a body of albedo 0.003
 WIDTHS = np.array([0.3, 0.6, 1.0, 1.7, 3.0])
+JUDGED = 6000  # directions off the peak
+JUDGED_DEG = 80.0  # up to this theta_i and theta_r
+OFF_PEAK_DEG = 3.0  # and this far from the mirror direction
 NEAR = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0])  # degrees from the mirror direction
 
 
@@ -61,6 +64,29 @@ def chosen(surface, geom: Geometry | None, spectral: bool = False) -> tuple[Geom
         raise NoAnswer("the surface reflects nothing in any of the directions that it is judged by; there is nothing to write")
     wanted = np.where(counted[kept], rgb[kept], np.nan)
     return geom[kept], wanted, f"{int(kept.sum())} {words}, brighter than 1e-3 of that incidence's peak or 1e-3/sr"
+
+
+def off_peak(brdf) -> tuple[Geometry, np.ndarray, str]:
+    """Where a table is judged besides: directions, the BRDF there, NaN where it is too dark to count, and words.
+
+    Spread evenly by an additive sequence (Roberts 2018), off the round angles of nodes; half anywhere, half within 20
+    degrees of the mirror direction.
+    """
+    x, y, z = (np.arange(1, JUDGED + 1)[:, None] * 1.2207440846 ** -np.arange(1.0, 4.0) % 1).T
+    near = np.arange(JUDGED) % 2 == 0
+    theta_i = JUDGED_DEG * x
+    theta_r = np.where(near, np.abs(theta_i + 40 * (y - 0.5)), JUDGED_DEG * y)
+    geom = rows(Geometry.from_degrees(theta_i, 0.0, theta_r, 180 + np.where(near, 40, 360) * (z - 0.5)))
+    geom = geom[(theta_r <= JUDGED_DEG) & (geom.mirror_distance2[:, 0] > np.radians(OFF_PEAK_DEG) ** 2)]
+    value = brdf(geom)
+    seen = (value > 0) & (value >= too_dark(value))
+    words = f"theta_i and theta_r to {JUDGED_DEG:g} deg and {OFF_PEAK_DEG:g} deg or more from the mirror direction ({int(seen.any(axis=1).sum())} directions tried)"
+    return geom, np.where(seen, value, np.nan), words
+
+
+def too_dark(values) -> float:
+    """What is below does not count: DARKEST, or FAINTEST of the brightest where all is dark."""
+    return min(DARKEST, FAINTEST * float(values.max()))
 
 
 def rms_ln(law: np.ndarray, wanted: np.ndarray) -> float:

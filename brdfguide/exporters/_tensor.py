@@ -1,9 +1,10 @@
 """A BRDF as the tensors of the RGL material database, which Mitsuba's and pbrt's `measured` read and importance-sample.
 
-    f cos θr = spectra(u_m; θi) ndf(u_m) / (4 sigma(θi)),   u_m = (√(2 θm/π), (φm - φi + π)/2π),   m the half vector
+    f cos θr = spectra(s(u_m); θi) ndf(u_m) / (4 sigma(θi)),   u_m = (√(2 θm/π), (φm - φi + π)/2π),   m the half vector
 
-A reader interpolates `spectra` linearly in u_m and θi, so it must be smooth: `ndf` carries the lobe, `sigma` its
-growth toward grazing, both finely sampled. `vndf` is flat, so that no warp stands between u_m and the table, and
+A reader interpolates `spectra` linearly in s and θi, so it must be smooth: `ndf` carries the lobe, finely sampled.
+s is the cumulative distribution of `vndf`, which therefore places the nodes: here along each side by itself and the same
+for all incidences, close where the table bends. The incidences are placed likewise. `sigma` is constant, and
 `luminance` alone steers the sampling.
 
 Layout: FORMATS of the database (Dupuy and Jakob 2018, "An adaptive parameterization for efficient material
@@ -18,90 +19,123 @@ import numpy as np
 
 from ..errors import NoAnswer
 from ..geometry import Geometry, rows
-from ._directions import rms_ln
+from ._directions import off_peak, rms_ln, too_dark
+from ._placement import Warp, density, march
 
-# closer toward grazing; off the round angles at which the residual is taken, so that this sees what interpolation costs
-THETA_I = np.radians(np.concatenate(([0.0], np.arange(0.75, 74.0, 1.5), np.arange(74.6, 88.0, 0.8), [88.4, 88.9, 89.3, 89.6, 89.9])))
-FINE = 1024  # nodes of ndf and sigma
+FINE = 4096  # nodes of ndf
+PLACES = (193, 97)  # nodes of vndf along u and v
 LEAST = 1e-12  # 1/sr: below it float32 tables hold nothing
-FAINT = 1e-6  # least ndf and sigma, of their greatest
+FAINT = 1e-6  # least ndf, of its greatest
+CLOSE = 0.01  # of the BRDF, off the peak: what a table should be within
+PLACED_DEG = 86.0  # nodes are placed for angles up to here, so that what is judged does not reach the horizon; the rest of the incidences are:
+BEYOND = np.radians([87.0, 88.0, 89.0, 89.5, 89.9])
+FEWEST, MOST = 90, 256  # half vectors along each side; fewer would reach from PLACED_DEG beyond the horizon
+TOLERANCES = (0.012, 0.008, 0.005, 0.003, 0.002)  # of each of the three interpolations
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
-    """Arrays as written: theta_i (N,), sigma (2, FINE), ndf (2, FINE), spectra (N, channels, R, R), float32."""
+class Grid:
+    """Nodes of a table: incidences [rad], warps along u and v, size x size half vectors, and the carrier ndf (FINE,)."""
 
     theta_i: np.ndarray
-    sigma: np.ndarray
+    along_u: Warp
+    along_v: Warp
+    size: int
     ndf: np.ndarray
-    spectra: np.ndarray
 
-    def at(self, geom: Geometry) -> np.ndarray:
-        """BRDF (samples, channels) as a reader gets it."""
+    @property
+    def u(self) -> np.ndarray:
+        return self.along_u.back(np.linspace(0, 1, self.size))
+
+    @property
+    def v(self) -> np.ndarray:
+        return self.along_v.back(np.linspace(0, 1, self.size))
+
+    def read(self, geom: Geometry, spectra) -> np.ndarray:
+        """BRDF (samples, channels) as a reader gets it; spectra(incidence, along v, along u) -> (samples, channels) at nodes by their places."""
         theta_i = np.arctan2(geom.sin_i, geom.cos_i)[:, 0]
         theta_m = np.arctan(np.sqrt(geom.tan2_h))[:, 0]
         phi = np.radians(geom.phi_deg)[:, 0]
         phi_m = np.arctan2(geom.sin_r[:, 0] * np.sin(phi), geom.sin_i[:, 0] + geom.sin_r[:, 0] * np.cos(phi))
         u, v = np.sqrt(2 * theta_m / pi), (phi_m + pi) / (2 * pi)
-        node = np.clip(np.searchsorted(self.theta_i, theta_i) - 1, 0, len(self.theta_i) - 2)
-        part = np.clip((theta_i - self.theta_i[node]) / (self.theta_i[node + 1] - self.theta_i[node]), 0, 1)
-        size = self.spectra.shape[-1]
-        x, y = np.clip(u, 0, 1) * (size - 1), np.clip(v, 0, 1) * (size - 1)
-        i, j = np.minimum(x.astype(int), size - 2), np.minimum(y.astype(int), size - 2)
-        p, q = (x - i)[:, None], (y - j)[:, None]
+        node, part = _cell(np.interp(theta_i, self.theta_i, np.arange(len(self.theta_i))), len(self.theta_i))
+        i, p = _cell(self.along_u.to(u) * (self.size - 1), self.size)
+        j, q = _cell(self.along_v.to(v) * (self.size - 1), self.size)
         value = 0.0
-        for step, weight in ((0, 1 - part), (1, part)):
-            s = self.spectra[node + step]
-            row = np.arange(len(node))
-            corner = lambda b, a: s[row, :, j + b, i + a]  # noqa: B023, E731
-            flat = (corner(0, 0) * (1 - p) + corner(0, 1) * p) * (1 - q) + (corner(1, 0) * (1 - p) + corner(1, 1) * p) * q
-            value = value + weight[:, None] * flat
-        fine = np.linspace(0, 1, FINE)
-        ndf = np.interp(u, fine, self.ndf[0])
-        sigma = np.interp(np.sqrt(2 * theta_i / pi), fine, self.sigma[0])
-        return value * (ndf / (4 * sigma))[:, None] / geom.cos_r
+        for a, weight_a in ((0, 1 - part), (1, part)):
+            for b, weight_b in ((0, 1 - q), (1, q)):
+                for c, weight_c in ((0, 1 - p), (1, p)):
+                    value = value + (weight_a * weight_b * weight_c)[:, None] * spectra(node + a, j + b, i + c)
+        return value * np.interp(u, np.linspace(0, 1, FINE), self.ndf)[:, None] / geom.cos_r
+
+    def computed(self, brdf):
+        """What `read` takes, from the BRDF itself: the errors of a table before there is one."""
+        return lambda node, j, i: _smooth(brdf, self.ndf, self.theta_i[node], self.u[i], self.v[j])[0]
+
+    def filled(self, brdf) -> np.ndarray:
+        """spectra (incidences, channels, size, size), float32; left and right of the plane of incidence are alike."""
+        half = (self.size + 1) // 2
+        v, u = (each.ravel() for each in np.meshgrid(self.v[:half], self.u, indexing="ij"))
+        layers = []
+        for theta in self.theta_i:
+            layer = _smooth(brdf, self.ndf, theta, u, v)[0].T.reshape(-1, half, self.size).astype(np.float32)
+            layers.append(np.concatenate((layer, layer[:, : self.size - half][:, ::-1]), axis=1))
+        return np.array(layers)
 
 
-def tabulate(brdf, size: int) -> Table:
-    """The Table of brdf(geom (samples, 1)) -> (samples, channels), with size x size half vectors for each incidence."""
-    fine = np.linspace(0, 1, FINE)
-    sigma, height = _sigma(brdf, fine)
-    sigma_at = lambda theta: np.interp(np.sqrt(2 * theta / pi), fine, sigma)  # noqa: E731
-    ndf = _ndf(brdf, fine, sigma_at, height)
-    u = np.linspace(0, 1, size)
-    theta_m, phi_m = u * u * (pi / 2), (2 * u - 1) * pi
-    ndf_at = np.tile(np.interp(u, fine, ndf), size)
-    layers = []
-    for theta in THETA_I:
-        value = _outgoing(brdf, np.full(size * size, theta), np.tile(theta_m, size), np.repeat(phi_m, size))
-        layers.append((value * (4 * sigma_at(theta) / ndf_at)[:, None]).T.reshape(-1, size, size))
-    twice = lambda values: np.stack((values, values)).astype(np.float32)  # noqa: E731
-    return Table(THETA_I.astype(np.float32), twice(sigma), twice(ndf), np.array(layers).astype(np.float32))
+def _cell(x, nodes):
+    """The node below x, of 0..nodes - 1, and how far x is toward the next."""
+    node = np.minimum(x.astype(int), nodes - 2)
+    return node, x - node
 
 
-def _sigma(brdf, fine):
-    """One over the greatest f cos θr in the plane of incidence, so that the tables of all incidences reach about the same height; and that height."""
-    theta = np.minimum(fine * fine * (pi / 2), np.radians(89.9))
-    to = np.concatenate((np.arange(-80.0, 81.0, 8.0), [np.nan]))
-    angles = np.degrees(theta)[:, None]
-    out = np.where(np.isnan(to), angles, to)
-    geom = rows(Geometry.from_degrees(np.broadcast_to(angles, out.shape).ravel(), 0.0, np.abs(out).ravel(), np.where(out < 0, 0.0, 180.0).ravel()))
-    value = (brdf(geom).mean(axis=1) * geom.cos_r[:, 0]).reshape(out.shape).max(axis=1)
+def grids(brdf):
+    """Ever closer Grids for brdf(geom (samples, 1)) -> (samples, channels): each of the three interpolations costs at most a tolerance."""
+    ndf = _ndf(brdf)
+    few, half = np.radians(np.linspace(0.0, PLACED_DEG, 18)), np.linspace(0, 0.5, 25)
+    seen_u = _looked(brdf, ndf, few, np.linspace(0, 1, 4 * (PLACES[0] - 1) + 1), half, 1)
+    u = Warp(density(*seen_u, TOLERANCES[0], PLACES[0], FEWEST)).back(np.linspace(0, 1, 49))
+    seen_v = _looked(brdf, ndf, few, u, np.linspace(0, 0.5, 2 * (PLACES[1] - 1) + 1), 2)
+    theta = np.radians(np.arange(0.0, PLACED_DEG + 0.1, 0.25))
+    values, counted = _looked(brdf, ndf, theta, u, half, 0)
+    for tolerance in TOLERANCES:
+        along_u = density(*seen_u, tolerance, PLACES[0], FEWEST)
+        along_v = 2 * density(*seen_v, tolerance, PLACES[1] // 2 + 1, FEWEST / 2)
+        along_v = np.concatenate((along_v, along_v[-2::-1]))
+        size = int(np.ceil(1 + max(np.trapezoid(each, np.linspace(0, 1, len(each))) for each in (along_u, along_v))))
+        places = march(theta, values, np.where(counted, tolerance * values, np.inf), np.radians(np.where(theta < np.radians(70.0), 6.0, 1.5)))
+        yield Grid(np.concatenate((theta[places], BEYOND)), Warp(along_u), Warp(along_v), min(size, MOST), ndf)
+
+
+def _looked(brdf, ndf, theta, u, v, axis):
+    """The smooth part on the grid theta_i x u x v and where it counts, both with `axis` first and the rest in one."""
+    grid = np.meshgrid(theta, u, v, indexing="ij")
+    value, counted = _smooth(brdf, ndf, *(each.ravel() for each in grid))
+    order = [axis, *(each for each in range(4) if each != axis)]
+    return tuple(each.reshape(*grid[0].shape, -1).transpose(order).reshape(grid[0].shape[axis], -1) for each in (value, counted))
+
+
+def _smooth(brdf, ndf, theta_i, u, v):
+    """f cos θr / ndf (samples, channels), 0 below the horizon, and where it counts: both directions up to PLACED_DEG, and not too dark."""
+    theta_m, phi_m = u * u * (pi / 2), (2 * v - 1) * pi
+    value, cos_r = _outgoing(brdf, np.broadcast_to(theta_i, u.shape), theta_m, phi_m)
+    limit = np.cos(np.radians(PLACED_DEG))
+    counted = (value >= too_dark(ndf) * cos_r) & (cos_r > limit) & (np.cos(theta_i) > limit)[..., None]
+    return value / np.interp(u, np.linspace(0, 1, FINE), ndf)[:, None], counted
+
+
+def _ndf(brdf):
+    """f cos θr where light and view are both on the facet's normal: above the horizon for every tilt, hence without a step."""
+    u = np.linspace(0, 1, FINE)
+    theta_m = np.minimum(u * u * (pi / 2), np.radians(89.9))
+    value = _outgoing(brdf, theta_m, theta_m, np.zeros(FINE))[0].mean(axis=1)
     if value.max() < LEAST:
-        raise NoAnswer(f"a table of this surface would be black: it reflects at most {value.max():.1g}/sr at any angle that was tried")
-    floor = FAINT * value.max()
-    return floor / np.maximum(value, floor), 4 * floor
-
-
-def _ndf(brdf, fine, sigma_at, height):
-    """4 sigma f cos θr where light and view are both on the facet's normal: above the horizon for every tilt, hence without a step."""
-    theta_m = np.minimum(fine * fine * (pi / 2), np.radians(89.9))
-    value = _outgoing(brdf, theta_m, theta_m, np.zeros(FINE)).mean(axis=1) * 4 * sigma_at(theta_m)
-    return np.maximum(value, FAINT * max(value.max(), height))
+        raise NoAnswer(f"a table of this surface would be black: it reflects at most {value.max():.1g}/sr toward the light at any angle")
+    return np.maximum(value, FAINT * value.max())
 
 
 def _outgoing(brdf, theta_i, theta_m, phi_m):
-    """f cos θr (samples, channels) for light at theta_i and half vectors; 0 below the horizon and behind the facet.
+    """f cos θr (samples, channels) for light at theta_i and half vectors, and cos θr; 0 below the horizon and behind the facet.
 
     A smooth continuation below the horizon was tried: no better up to 87 degrees, and readers met negative values beyond.
     """
@@ -112,7 +146,34 @@ def _outgoing(brdf, theta_i, theta_m, phi_m):
     r = along * m - i
     seen = (along > 0) & (r[:, 2:] > 1e-9)
     geom = rows(Geometry.from_vectors(i, np.where(seen, r, [0.0, 0.0, 1.0])))
-    return np.where(seen, brdf(geom) * geom.cos_r, 0.0)
+    return np.where(seen, brdf(geom) * geom.cos_r, 0.0), np.where(seen, geom.cos_r, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Made:
+    """A table with what it costs."""
+
+    grid: Grid
+    spectra: np.ndarray
+    rms_ln: float  # over the export's directions
+    note: str  # how far off at most, off the peak
+
+
+def best_table(brdf, geom: Geometry, wanted: np.ndarray) -> Made:
+    """The first grid that is within CLOSE off the peak; the closest where none is, and then the note says so."""
+    judged, truth, where = off_peak(brdf)
+    off, grid = np.inf, None
+    for each in grids(brdf):
+        worst = float(np.nanmax(np.abs(each.read(judged, each.computed(brdf)) / truth - 1), initial=0.0))
+        if worst < off:
+            off, grid = worst, each
+        if off <= 0.8 * CLOSE:  # so that other directions are within it too
+            break
+    note = f"a table of {len(grid.theta_i)} incidences and {grid.size} x {grid.size} half vectors: "
+    note += f"off the peak its reader is within {100 * off:.2g} % of the model, {where}"
+    note += "" if off <= CLOSE else f"; {100 * CLOSE:g} % could not be held"
+    spectra = grid.filled(brdf)
+    return Made(grid, spectra, rms_ln(grid.read(geom, lambda node, j, i: spectra[node, :, j, i]), wanted), note)
 
 
 # --- the container ----------------------------------------------------------------------------------
@@ -124,45 +185,33 @@ def packed(fields: dict[str, np.ndarray]) -> bytes:
     """`tensor_file` 1.0, little-endian: a directory of named arrays, then the arrays, each at a multiple of 8 bytes."""
     header = b"tensor_file\0" + struct.pack("<BBI", 1, 0, len(fields))
     length = len(header) + sum(2 + len(name.encode()) + 2 + 1 + 8 + 8 * array.ndim for name, array in fields.items())
-    directory, body = b"", b""
+    directory, body = b"", []
+    offset = length
     for name, array in fields.items():
-        body += b"\0" * (-(length + len(body)) % 8)
-        offset = length + len(body)
+        body.append(b"\0" * (-offset % 8))
+        offset += len(body[-1])
         directory += struct.pack("<H", len(name.encode())) + name.encode()
         directory += struct.pack("<HBQ", array.ndim, TYPES[array.dtype], offset) + struct.pack(f"<{array.ndim}Q", *array.shape)
-        body += np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<")).tobytes()
-    return header + directory + body
+        body.append(np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<")).tobytes())
+        offset += len(body[-1])
+    return b"".join((header, directory, *body))
 
 
-def fields(table: Table, comment: str, spectra: str, wavelengths: np.ndarray | None = None) -> dict[str, np.ndarray]:
-    """The arrays of a file, in the database's order; `spectra` is the name of the table, rgb or spectra."""
-    nodes, _, size, _ = table.spectra.shape
-    u = np.linspace(0, 1, size)
-    theta_m, phi_m = u * u * (pi / 2), (2 * u - 1) * pi
-    # solid angle of view directions per area of u_m: 4 (i·m) 2π² u sin θm; the sampling density a reader divides by
-    toward = np.cos(table.theta_i)[:, None, None] * np.cos(theta_m) + np.sin(table.theta_i)[:, None, None] * np.sin(theta_m) * np.cos(phi_m)[:, None]
-    carrier = np.interp(u, np.linspace(0, 1, FINE), table.ndf[0])
-    bright = table.spectra.mean(axis=1) * carrier * np.maximum(toward, 0) * u * np.sin(theta_m)
+def fields(grid: Grid, spectra: np.ndarray, comment: str, name: str, wavelengths: np.ndarray | None = None) -> dict[str, np.ndarray]:
+    """The arrays of a file, in the database's order; `name` is that of the table, rgb or spectra."""
+    u, v = grid.u, grid.v
+    theta_i, theta_m, phi_m = grid.theta_i[:, None, None], u * u * (pi / 2), (2 * v - 1)[:, None] * pi
+    placing = grid.along_v.density[:, None] * grid.along_u.density
+    # solid angle of view directions per area of u_m: 4 (i·m) 2π² u sin θm, per area of s less by the density of nodes; a reader's sampling density
+    toward = np.maximum(np.cos(theta_i) * np.cos(theta_m) + np.sin(theta_i) * np.sin(theta_m) * np.cos(phi_m), 0)
+    area = u * np.sin(theta_m) / (grid.along_u.at(u) * grid.along_v.at(v)[:, None])
+    bright = spectra.mean(axis=1) * np.interp(u, np.linspace(0, 1, FINE), grid.ndf) * toward * area
     mean = bright.mean(axis=(1, 2), keepdims=True)
     bright = np.where(mean > 0, np.maximum(bright, 1e-3 * mean) / np.where(mean > 0, mean, 1.0), 1.0)  # nothing that reflects is left unsampled
+    vndf = np.broadcast_to((placing / placing.mean()).astype(np.float32), (1, len(theta_i), *placing.shape))
     arrays = {
-        "description": np.frombuffer(comment.encode(), np.uint8), "phi_i": np.zeros(1, np.float32), "theta_i": table.theta_i,
-        "sigma": table.sigma, "ndf": table.ndf, "vndf": np.ones((1, nodes, 2, 2), np.float32), "luminance": bright[None].astype(np.float32),
-        spectra: table.spectra[None], "jacobian": np.ones(1, np.uint8),
+        "description": np.frombuffer(comment.encode(), np.uint8), "phi_i": np.zeros(1, np.float32), "theta_i": grid.theta_i.astype(np.float32),
+        "sigma": np.full((2, 2), 0.25, np.float32), "ndf": np.stack((grid.ndf, grid.ndf)).astype(np.float32), "vndf": vndf,
+        "luminance": bright[None].astype(np.float32), name: spectra[None], "jacobian": np.ones(1, np.uint8),
     }  # fmt: skip
     return arrays if wavelengths is None else arrays | {"wavelengths": wavelengths.astype(np.float32)}
-
-
-SIZES = (48, 96, 160)  # half vectors along each side: the first with 99 % of the directions within CLOSE
-CLOSE = 0.01
-
-
-def best_table(brdf, geom: Geometry, wanted: np.ndarray) -> tuple[Table, float]:
-    """The smallest good table and its rms ln."""
-    for size in SIZES:
-        table = tabulate(brdf, size)
-        counted = np.isfinite(wanted)
-        far = np.abs(table.at(geom)[counted] / wanted[counted] - 1) > CLOSE
-        if np.mean(far) <= 0.01:
-            break
-    return table, rms_ln(table.at(geom), wanted)

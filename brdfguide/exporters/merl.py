@@ -16,7 +16,7 @@ import numpy as np
 from ..geometry import Geometry, rows
 from ._base import EXACT, Export, Exporter, Statement, Surface
 from ._blurred import blurred
-from ._directions import chosen, rms_ln
+from ._directions import chosen, off_peak, rms_ln
 
 THETA_H, THETA_D, PHI_D = 90, 90, 180
 SCALE = np.array([1.0, 1.15, 1.66]) / 1500
@@ -32,7 +32,11 @@ def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface"
     geom, wanted, over = chosen(surface, geom)
     rms = rms_ln(np.maximum(table[_cell(geom)], 1e-300), wanted)
     status = "lossy" if lost else "exact" if rms <= EXACT else "refit"
-    notes = ("a table, read at the nearest cell; the format has no place for a comment",)
+    judged, truth, where = off_peak(surface.rgb)
+    off = np.abs(table[_cell(judged)] / truth - 1)
+    usual, most = (100 * np.nanquantile(off, (0.95, 1.0))) if np.isfinite(off).any() else (0.0, 0.0)
+    notes = (f"a table, read at the nearest cell: within {usual:.1f} % of the model in 95 of 100 directions and {most:.1f} % in all, {where}",
+             "the format has no place for a comment")  # fmt: skip
     cells = {"theta_h": THETA_H, "theta_d": THETA_D, "phi_d": PHI_D}
     statement = Statement("merl", status, rms, int(np.isfinite(wanted).any(axis=1).sum()), over, cells, lost, notes, surface.colour.how)
     planes = np.where(np.isfinite(table), table / SCALE, NOTHING).T

@@ -17,12 +17,11 @@ def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface"
     """Bytes and their Statement."""
     surface, lost = blurred(surface)
     geom, wanted, over = chosen(surface, geom)
-    table, rms = best_table(lambda directions: np.maximum(surface.rgb(directions), 0.0), geom, wanted)
-    shape = {"theta_i": len(table.theta_i), "half_vectors": table.spectra.shape[-1] ** 2}
-    status = "lossy" if lost else "exact" if rms <= EXACT else "refit"
-    notes = ("a table, interpolated by its reader between its nodes",)
-    statement = Statement("rgl", status, rms, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, notes, surface.colour.how)
-    return Export(packed(fields(table, "\n".join(header(surface, statement)), "rgb")), statement)
+    made = best_table(lambda directions: np.maximum(surface.rgb(directions), 0.0), geom, wanted)
+    shape = {"theta_i": len(made.grid.theta_i), "half_vectors": made.grid.size**2}
+    status = "lossy" if lost else "exact" if made.rms_ln <= EXACT else "refit"
+    statement = Statement("rgl", status, made.rms_ln, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, (made.note,), surface.colour.how)
+    return Export(packed(fields(made.grid, made.spectra, "\n".join(header(surface, statement)), "rgb")), statement)
 
 
 EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor, RGB: any model in Mitsuba's measured plugin", export)

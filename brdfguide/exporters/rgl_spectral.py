@@ -10,7 +10,7 @@ from ..geometry import Geometry
 from ._base import EXACT, Export, Exporter, Refused, Statement, Surface, header
 from ._blurred import blurred
 from ._directions import chosen
-from ._tensor import Table, best_table, fields, packed
+from ._tensor import best_table, fields, packed
 
 VISIBLE_NM = np.array([360.0, 830.0])
 
@@ -25,16 +25,14 @@ def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface"
     if surface.colour.named and len(nm) > 1:
         lost += (f"{', '.join(surface.channels)} stand at {', '.join(f'{each:g}' for each in nm)} nm, so that hues are approximate",)
     order = np.argsort(nm)
-    table, rms = best_table(surface.spectral, geom, wanted)
-    spectra, nm = table.spectra[:, order], nm[order]
+    made = best_table(surface.spectral, geom, wanted)
+    spectra, nm = made.spectra[:, order], nm[order]
     if len(nm) == 1:
         spectra, nm = np.repeat(spectra, 2, axis=1), VISIBLE_NM
-    table = Table(table.theta_i, table.sigma, table.ndf, spectra)
-    shape = {"theta_i": len(table.theta_i), "half_vectors": spectra.shape[-1] ** 2, "wavelengths": len(nm)}
-    status = "lossy" if lost else "exact" if rms <= EXACT else "refit"
-    notes = ("a table, interpolated by its reader between its nodes",)
-    statement = Statement("rgl-spectral", status, rms, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, notes, "wavelengths as they are")
-    return Export(packed(fields(table, "\n".join(header(surface, statement)), "spectra", nm)), statement)
+    shape = {"theta_i": len(made.grid.theta_i), "half_vectors": made.grid.size**2, "wavelengths": len(nm)}
+    status = "lossy" if lost else "exact" if made.rms_ln <= EXACT else "refit"
+    statement = Statement("rgl-spectral", status, made.rms_ln, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, (made.note,), "wavelengths as they are")
+    return Export(packed(fields(made.grid, spectra, "\n".join(header(surface, statement)), "spectra", nm)), statement)
 
 
 EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor by wavelength: any model in pbrt's and spectral Mitsuba's measured", export)

@@ -8,8 +8,9 @@ import pytest
 
 from brdfguide import exporters
 from brdfguide.errors import BrdfguideError, InputError, NoAnswer
-from brdfguide.exporters import _tensor, merl
+from brdfguide.exporters import _directions, _tensor, merl
 from brdfguide.exporters._base import Refused, Surface, number
+from brdfguide.exporters._placement import Warp
 from brdfguide.geometry import Geometry, rows
 
 from .conftest import EVERY_LAW, random_surface
@@ -39,8 +40,9 @@ def test_bytes_repeat(target):
 @pytest.fixture(autouse=True)
 def small_tables(monkeypatch):
     """Tables of a few nodes: here it is the road that is tested, not the resolution."""
-    monkeypatch.setattr(_tensor, "SIZES", (8,))
-    monkeypatch.setattr(_tensor, "THETA_I", np.radians([0.0, 40.0, 70.0, 89.0]))
+    even = Warp(np.ones(2))
+    monkeypatch.setattr(_tensor, "grids", lambda brdf: [_tensor.Grid(np.radians([0.0, 40.0, 70.0, 89.0]), even, even, 8, _tensor._ndf(brdf))])
+    monkeypatch.setattr(_directions, "JUDGED", 40)
     for name, size in (("THETA_H", 6), ("THETA_D", 6), ("PHI_D", 8)):
         monkeypatch.setattr(merl, name, size)
 

@@ -63,16 +63,17 @@ def test_stated_residual_is_what_mitsuba_shows(name, surfaces):
     assert rms_ln(got, wanted) == pytest.approx(made.statement.rms_ln, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name not in ("mirror", "brass")])  # these are nothing but a peak
+@pytest.mark.parametrize("name", NAMES)
 def test_table_agrees_to_one_percent_off_the_peak(name, surfaces, tmp_path):
-    """More than 3 degrees from the mirror direction: 1 % in 95 of 100 directions; the rest is where a lobe meets the horizon or falls steeply."""
+    """Every direction that is 3 degrees or more from the mirror direction."""
     surface, geom = surfaces[name], directions()
-    (tmp_path / "table.bsdf").write_bytes(exporters.export("rgl", surface).content)
+    made = exporters.export("rgl", surface)
+    (tmp_path / "table.bsdf").write_bytes(made.content)
     got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom)
     wanted = blurred(surface)[0].rgb(geom)
     counted = (wanted > 1e-3) & (geom.mirror_distance2 > np.radians(3) ** 2)
-    error = np.abs(got[counted] / wanted[counted] - 1)
-    assert error.size > 1000 and np.median(error) < 2e-3 and np.quantile(error, 0.95) < 0.01 and np.quantile(error, 0.99) < 0.05, np.quantile(error, [0.5, 0.95, 0.99])
+    assert counted.sum() > 60 and np.abs(got[counted] / wanted[counted] - 1).max() < 0.01
+    assert "could not be held" not in made.statement.notes[0]
 
 
 def test_spectral_table_agrees_at_its_wavelengths(tmp_path):
@@ -87,7 +88,7 @@ def test_spectral_table_agrees_at_its_wavelengths(tmp_path):
     got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom, [450, 550, 600, 700])
     wanted = blurred(surface)[0].spectral(geom)[:, [0, 2, 3, 5]]
     away = geom.mirror_distance2[:, 0] > np.radians(3) ** 2
-    assert np.quantile(np.abs(got / wanted - 1)[away], 0.95) < 0.01
+    assert np.abs(got / wanted - 1)[away].max() < 0.01
 
 
 @pytest.mark.parametrize("name", ["ggx", "he-torrance", "phong"])
