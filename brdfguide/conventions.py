@@ -19,10 +19,11 @@ def turned(geom: Geometry) -> Geometry:
 
 
 def as_brdf(measurement: Measurement, quantity: str) -> Measurement:
-    """Values stated as `brdf`, `brdf-cos` (times cos theta_r) or `reflectance-factor` (times pi), as BRDF [1/sr]."""
+    """Values stated as `brdf`, `brdf-cos` (times cos theta_r), `brdf-cos-i` or `reflectance-factor` (times pi), as BRDF [1/sr]."""
     if quantity == "brdf":
         return measurement
-    factor = 1 / np.pi if quantity == "reflectance-factor" else 1 / np.where(measurement.geom.cos_r > 0, measurement.geom.cos_r, 1.0)
+    geom = measurement.geom
+    factor = {"brdf-cos": 1 / geom.cos_r, "brdf-cos-i": 1 / geom.cos_i, "reflectance-factor": 1 / np.pi}[quantity]
     stderr = None if measurement.stderr is None else measurement.stderr * factor
     return replace(measurement, brdf=measurement.brdf * factor, stderr=stderr)
 

@@ -8,16 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import conventions, reciprocity, reflectance, retro, sampling
+from . import conventions, quantity, reciprocity, reflectance, retro, sampling
 from .errors import InputError, NoAnswer
 from .measurement import Finding, Measurement
 from .smoothness import dark_edges, noise, spikes
 
 __all__ = ["corrected", "examine", "noise", "outside", "prepared", "spikes"]
 LARGE = 60_000  # directions beyond which a stratified subset is examined
-STATED = {"quantity-by-option", "quantity-stated"}
 SIDE_KNOWN = {"mirror-side", "mirror-side-turned", "mirror-side-by-option"}
-ENERGY_SLACK = 1.1  # a hemispherical reflectance above this is no BRDF in 1/sr; scales are known to about 5 %
 
 
 def examine(measurement: Measurement) -> tuple[Finding, ...]:
@@ -27,7 +25,7 @@ def examine(measurement: Measurement) -> tuple[Finding, ...]:
         return (Finding("no-usable-values", text, "error", numbers=(("values", measurement.brdf.size),)),)
     looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
     spiky = spikes(looked_at)
-    found = [_coverage(measurement), *_reach(looked_at), *_side(looked_at), *_quantity(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
+    found = [_coverage(measurement), *_reach(looked_at), *_side(looked_at), *quantity.findings(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
     found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_edges(looked_at), *_noise(looked_at)]
     return tuple(found)
 
@@ -57,7 +55,7 @@ def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
 
 def _settled(measurement: Measurement, anyway: bool):
     """`corrected`, and what is found afterwards."""
-    for _ in range(4):  # the side first, then the cosine, then the factor pi
+    for _ in range(4):  # the side first, then a cosine, then the factor pi
         findings = examine(measurement)
         found = {finding.code: finding for finding in findings}
         if "mirror-side-contradicted" in found and found["mirror-side-contradicted"].severity == "warning":
@@ -65,6 +63,8 @@ def _settled(measurement: Measurement, anyway: bool):
             measurement = replace(measurement, geom=conventions.turned(measurement.geom)).noting(note)
         elif "cosine-weighted" in found:
             measurement = conventions.as_brdf(measurement, "brdf-cos").noting(_undone(found["cosine-weighted"], "divided by cos theta_r"))
+        elif "cosine-i-weighted" in found:
+            measurement = conventions.as_brdf(measurement, "brdf-cos-i").noting(_undone(found["cosine-i-weighted"], "divided by cos theta_i"))
         elif "reflectance-factor" in found:
             measurement = conventions.as_brdf(measurement, "reflectance-factor").noting(_undone(found["reflectance-factor"], "divided by pi"))
         else:
@@ -142,48 +142,6 @@ def _side(m: Measurement):
         yield Finding("mirror-side-contradicted", text, severity, "every lobe would be fitted on the wrong side", "--mirror-side", numbers)
     else:
         yield Finding("mirror-side", f"mirror direction at phi_r - phi_i = 180: {side.text}", numbers=numbers)
-
-
-def _quantity(m: Measurement, level):
-    """Reciprocity and energy, and what they say about the quantity."""
-    said = {finding.code for finding in m.findings}
-    known = said & (STATED | {"reflectance-factor"})
-    tested = reciprocity.test(m)
-    weighted = False
-    if tested:
-        numbers = [("pairs", tested.pairs), ("median_ratio", tested.ratio), ("median_ratio_over_cosine", tested.corrected_ratio)]
-        numbers += [("power_of_cosine", tested.power), ("power_stderr", tested.power_stderr)] if tested.power is not None else []
-        weighted = tested.power is not None and abs(tested.power - 1) < 0.3 and tested.corrected_ratio < tested.ratio
-        yield _reciprocity(tested, weighted and not said & (STATED | {"cosine-weighted"}), tuple(numbers))
-    if level is None:
-        text = "the coverage does not tell the hemispherical reflectance: a factor of pi could not be noticed"
-        yield Finding("energy-untold", text, option="--quantity")
-        return
-    most, least = float(np.max(level.values)), float(np.median(level.values))
-    bound = "at least " if level.how == "plane" else ""
-    numbers = tuple((f"at_{angle:g}_deg", value) for angle, value in zip(level.theta_i_deg, level.values))
-    text = f"hemispherical reflectance {bound}{min(level.values):.3g}..{most:.3g} within {level.to_deg:.0f} degrees, brightest channel"
-    if weighted or least <= ENERGY_SLACK:
-        yield Finding("reflectance", text, numbers=numbers)
-    elif least <= ENERGY_SLACK * np.pi and not known:
-        consequence = "albedos and lobes would come out pi times too large"
-        yield Finding("reflectance-factor", f"{text}: values are reflectance factors, pi times the BRDF", "warning", consequence, "--quantity brdf", numbers)
-    else:
-        consequence = "no model that keeps energy can follow; the scale may be relative"
-        option = "--quantity reflectance-factor, or --anyway" if not known else "--anyway"
-        yield Finding("too-bright", f"{text}: more light than came in", "error", consequence, option, numbers)
-
-
-def _reciprocity(tested, weighted: bool, numbers) -> Finding:
-    if weighted:
-        text = f"exchanging light and detector changes the values by (cos theta_r/cos theta_i)^{tested.power:.2f}: they are BRDF times cos theta_r"
-        return Finding("cosine-weighted", text, "warning", "lobes would seem to fade toward grazing", "--quantity brdf", numbers)
-    off = tested.power is not None and abs(tested.power) > max(0.25, 4 * tested.power_stderr)
-    if off or tested.ratio > 1.35:
-        how = f", as (cos theta_r/cos theta_i)^{tested.power:.2f}" if off else ""
-        text = f"not reciprocal: {tested.pairs} exchanged pairs differ by a median factor {tested.ratio:.3g}{how}"
-        return Finding("not-reciprocal", text, "warning", "no physical model fits better than this", "--quantity brdf-cos" if off and tested.power > 0 else "", numbers)
-    return Finding("reciprocal", f"reciprocal: {tested.pairs} exchanged pairs agree to a median factor {tested.ratio:.3g}", numbers=numbers)
 
 
 # --- what the surface is ----------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Whether values keep when light and detector change places, and which power of the cosines they carry if not.
 
-A BRDF is reciprocal; values that were multiplied by cos theta_r change by (cos theta_r / cos theta_i)^p, p = 1.
+A BRDF is reciprocal; values that were multiplied by cos theta_r change by (cos theta_r / cos theta_i)^p, p = 1, and by
+cos theta_i, p = -1. A wrong dark level adds d / cos theta_i to all: bright values stay reciprocal, dim ones do not.
 """
 
 from dataclasses import dataclass
@@ -12,6 +13,8 @@ from .measurement import Measurement
 NEAR_DEG = 3.0  # how far apart a direction and the exchanged one may lie
 LEVER = 0.15  # least |ln (cos theta_r / cos theta_i)| that says something about the power
 MOST = 1200  # directions compared
+STEADY = 3.0  # |ln ratio| beyond which a peak was met by its flank
+UNTOUCHED = 0.2  # power of the cosines that counts as none
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,19 @@ class Reciprocity:
     power_stderr: float | None
     ratio: float  # median of max(a/b, b/a) as measured
     corrected_ratio: float  # the same after division by cos theta_r
+    corrected_i_ratio: float  # and by cos theta_i
+    dim: "Dim | None"  # how the dimmer half fares, where the brightest quarter is reciprocal and it is not
+
+
+@dataclass(frozen=True)
+class Dim:
+    """Exchanged values of the dimmer half, and of the brightest quarter; the dimmer differ as if `offset` / cos theta_i [1/sr] had been added."""
+
+    below: float  # [1/sr]
+    ratio: float
+    bright_ratio: float
+    power: float
+    offset: float
 
 
 def test(measurement: Measurement, seed: int = 0) -> Reciprocity | None:
@@ -31,11 +47,25 @@ def test(measurement: Measurement, seed: int = 0) -> Reciprocity | None:
     lever, ratio = compared
     power, stderr = _slope(lever, ratio)
     spread = lambda values: float(np.exp(np.median(np.abs(values))))  # noqa: E731
-    return Reciprocity(len(ratio), power, stderr, spread(ratio), spread(ratio - lever))
+    return Reciprocity(len(ratio), power, stderr, spread(ratio), spread(ratio - lever), spread(ratio + lever), _dim(measurement, *_exchanged(measurement, seed)))
 
 
 def pairs(measurement: Measurement, seed: int = 0):
     """ln (cos theta_r / cos theta_i) and ln (value / exchanged value) of every pair; None for fewer than 12."""
+    rows = _exchanged(measurement, seed)
+    if rows is None:
+        return None
+    lever, ratio = _compared(measurement, *rows)
+    counted = np.any(np.isfinite(ratio), axis=1)
+    ratio = np.nanmedian(ratio[counted], axis=1) if ratio.shape[1] > 1 else ratio[counted][:, 0]
+    lever = lever[counted]
+    steady = np.abs(ratio) < STEADY
+    ratio, lever = ratio[steady], lever[steady]
+    return (lever, ratio) if len(ratio) >= 12 else None
+
+
+def _exchanged(measurement: Measurement, seed: int):
+    """Row numbers of directions and of those nearest to their exchange; None for fewer than 12."""
     geom = measurement.geom
     rows = np.flatnonzero(np.any(measurement.usable, axis=1))
     if len(rows) < 12 or len(geom) > 200_000:
@@ -44,18 +74,37 @@ def pairs(measurement: Measurement, seed: int = 0):
     there, apart = _nearest(_places(geom.swapped()[here]), _places(geom[rows]))
     there = rows[there]
     close = (apart < np.radians(NEAR_DEG)) & (there != here)
-    if np.count_nonzero(close) < 12:
-        return None
-    here, there = here[close], there[close]
+    return (here[close], there[close]) if np.count_nonzero(close) >= 12 else None
+
+
+def _compared(measurement: Measurement, here, there):
+    """ln (cos theta_r / cos theta_i) (pairs,) and ln (value / exchanged value) (pairs, channels), NaN where one is missing."""
     both = measurement.usable[here] & measurement.usable[there]
     ratio = np.full(both.shape, np.nan)
     ratio[both] = np.log(measurement.brdf[here][both] / measurement.brdf[there][both])
-    counted = np.any(both, axis=1)
-    ratio = np.nanmedian(ratio[counted], axis=1) if ratio.shape[1] > 1 else ratio[counted][:, 0]
-    lever = np.log(geom.cos_r[here, 0] / geom.cos_i[here, 0])[counted]
-    steady = np.abs(ratio) < 3.0  # beyond, a peak was met by its flank
-    ratio, lever = ratio[steady], lever[steady]
-    return (lever, ratio) if len(ratio) >= 12 else None
+    return np.log(measurement.geom.cos_r[here, 0] / measurement.geom.cos_i[here, 0]), ratio
+
+
+def _dim(measurement: Measurement, here, there) -> Dim | None:
+    """None unless it is the dimmer half of the values, over all channels, that fails, and not the brightest quarter."""
+    lever, ratio = _compared(measurement, here, there)
+    with np.errstate(invalid="ignore"):
+        told = np.abs(ratio) < STEADY
+    size = np.sqrt(measurement.brdf[here] * measurement.brdf[there], where=told, out=np.zeros_like(ratio))[told]
+    if size.size < 40:
+        return None
+    lever, gap = np.broadcast_to(lever[:, None], told.shape)[told], (measurement.brdf[here] - measurement.brdf[there])[told]
+    across = 1 / measurement.geom.cos_i[here] - 1 / measurement.geom.cos_r[here]
+    ratio, across = ratio[told], np.broadcast_to(across, told.shape)[told]
+    below = float(np.median(size))
+    of = lambda half: (*_slope(lever[half], ratio[half]), float(np.exp(np.median(np.abs(ratio[half])))))  # noqa: E731
+    (bright_power, _, bright_ratio), (power, stderr, dim_ratio) = of(size > np.quantile(size, 0.75)), of(size <= below)
+    if power is None or bright_power is None or abs(bright_power) > UNTOUCHED or bright_ratio > 1.25:
+        return None
+    if abs(power) < max(2 * UNTOUCHED, 4 * stderr) or np.log(dim_ratio) < 1.5 * np.log(bright_ratio):
+        return None
+    steep = (size <= below) & (np.abs(lever) > LEVER)
+    return Dim(below, dim_ratio, bright_ratio, power, float(np.median(gap[steep] / across[steep])))
 
 
 def _slope(lever, ratio):

@@ -32,6 +32,7 @@ FLOORS = tuple(
         measurement
         optical_constants
         optics
+        quantity
         reciprocity
         reflectance
         retro

@@ -35,7 +35,7 @@ def test_honest_dome_run_is_left_alone(tmp_path, name):
     theta_i, theta_r, phi, f = dome_run(name, seed=1)
     measurement = believed(tmp_path, table(("theta_i", "theta_r", "phi_r", "brdf"), theta_i, theta_r, phi, f))
     same(measurement, f)
-    assert not codes(measurement) & {"cosine-weighted", "reflectance-factor", "mirror-side-turned", "floor", "retro-reflector", "not-reciprocal", "too-bright"}
+    assert not codes(measurement) & {"cosine-weighted", "reflectance-factor", "mirror-side-turned", "floor", "retro-reflector", "not-reciprocal", "too-bright", "cosine-i-weighted", "dim-values-off"}
 
 
 @pytest.mark.parametrize("name", SURFACES)
@@ -44,7 +44,7 @@ def test_honest_in_plane_run_is_left_alone(tmp_path, name):
     measurement = believed(tmp_path, table(("theta_i", "theta_r", "brdf"), theta_i, theta_r, f))
     same(measurement, f)
     np.testing.assert_allclose(measurement.geom.signed_theta_r_deg[:, 0], theta_r, atol=1e-6)
-    assert not codes(measurement) & {"cosine-weighted", "reflectance-factor", "mirror-side-turned", "floor", "retro-reflector", "not-reciprocal", "too-bright"}
+    assert not codes(measurement) & {"cosine-weighted", "reflectance-factor", "mirror-side-turned", "floor", "retro-reflector", "not-reciprocal", "too-bright", "cosine-i-weighted", "dim-values-off"}
 
 
 @pytest.mark.parametrize("name", BRIGHT)
@@ -75,6 +75,39 @@ def test_cosine_weight_in_the_plane_is_noticed_and_undone(tmp_path, name):
     theta_i, theta_r, f = in_plane_run(name, seed=5)
     measurement = believed(tmp_path, table(("theta_i", "theta_r", "brdf"), theta_i, theta_r, f * np.cos(np.radians(theta_r))))
     same(measurement, f)
+
+
+@pytest.mark.parametrize("name", BRIGHT)
+def test_values_not_divided_by_the_irradiance_are_noticed_and_undone(tmp_path, name):
+    theta_i, theta_r, phi, f = dome_run(name, seed=17)
+    measurement = believed(tmp_path, table(("theta_i", "theta_r", "phi_r", "brdf"), theta_i, theta_r, phi, f * np.cos(np.radians(theta_i))))
+    assert "cosine-i-weighted" in codes(measurement)
+    same(measurement, f)
+
+
+@pytest.mark.parametrize("name", SURFACES)
+@pytest.mark.parametrize("share", [0.3, -0.3])
+def test_a_wrong_dark_level_is_noticed_and_not_taken_for_a_cosine(tmp_path, name, share):
+    theta_i, theta_r, phi, f = dome_run(name, seed=18)
+    offset = share * np.quantile(f, 0.25) / np.cos(np.radians(theta_i))
+    measurement = believed(tmp_path, table(("theta_i", "theta_r", "phi_r", "brdf"), theta_i, theta_r, phi, np.maximum(f + offset, 0.0)))
+    assert codes(measurement) & {"dim-values-off", "not-reciprocal"}
+    assert not codes(measurement) & {"cosine-weighted", "cosine-i-weighted"}
+
+
+@pytest.mark.parametrize("name", ["rough gold", "bead-blasted steel", "black rubber"])
+def test_a_dark_level_is_measured_where_a_lobe_stands_out(tmp_path, name):
+    theta_i, theta_r, phi, f = dome_run(name, seed=18)
+    offset = -0.3 * np.quantile(f, 0.25)
+    text = table(("theta_i", "theta_r", "phi_r", "brdf"), theta_i, theta_r, phi, np.maximum(f + offset / np.cos(np.radians(theta_i)), 0.0))
+    found = next(finding for finding in examine.examine(read(tmp_path, text)) if finding.code == "dim-values-off")
+    assert dict(found.numbers)["offset_per_sr"] == pytest.approx(offset, rel=0.1)
+
+
+@pytest.mark.parametrize("name", ["cayman.brdf", "garnet_red.brdf"])
+def test_both_files_of_the_cornell_instrument_show_the_same_dark_level(data, name):
+    found = next(finding for finding in examine.examine(formats.read(data / "cornell" / name)) if finding.code == "dim-values-off")
+    assert dict(found.numbers)["offset_per_sr"] == pytest.approx(-0.0009, abs=0.0001)
 
 
 @pytest.mark.parametrize("name", BRIGHT)

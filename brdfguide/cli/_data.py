@@ -9,7 +9,7 @@ from ..errors import InputError
 DATA = "Data"
 ColumnsOption = Annotated[str | None, Option("--columns", help="Roles of columns, e.g. theta_i=AOI,brdf=value.", rich_help_panel=DATA)]
 UnitOption = Annotated[str | None, Option("--unit", help="Unit of the angles: deg or rad.", rich_help_panel=DATA)]
-QuantityOption = Annotated[str | None, Option("--quantity", help="brdf, brdf-cos or reflectance-factor.", rich_help_panel=DATA)]
+QuantityOption = Annotated[str | None, Option("--quantity", help="brdf, brdf-cos, brdf-cos-i or reflectance-factor.", rich_help_panel=DATA)]
 MirrorSideOption = Annotated[str | None, Option("--mirror-side", help="positive, negative, phi=180 or phi=0.", rich_help_panel=DATA)]
 WavelengthOption = Annotated[str | None, Option("--wavelength", help="Channels [nm]: 550 or 450,550,650 or 400:700.", rich_help_panel=DATA)]
 InPlaneOption = Annotated[bool, Option("--in-plane", help="Only the plane of incidence.", rich_help_panel=DATA)]

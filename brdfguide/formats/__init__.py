@@ -14,7 +14,7 @@ from . import _open
 from ._base import Format, Options, Source
 
 HEAD = 65536  # bytes that the readers look at
-QUANTITIES = ("brdf", "brdf-cos", "reflectance-factor")
+QUANTITIES = ("brdf", "brdf-cos", "brdf-cos-i", "reflectance-factor")
 
 
 def names() -> list[str]:

@@ -24,7 +24,7 @@ class Options:
 
     columns: Mapping[str, str] | tuple[str, ...] | None = None  # role -> column, or the roles in order
     unit: str | None = None  # deg, rad
-    quantity: str | None = None  # brdf, brdf-cos, reflectance-factor
+    quantity: str | None = None  # brdf, brdf-cos, brdf-cos-i, reflectance-factor
     mirror_side: str | None = None  # positive, negative, phi=180, phi=0
     average_phi_i: bool = False  # an anisotropic table averaged over the rotation of the sample
 

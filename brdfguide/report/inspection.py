@@ -9,6 +9,7 @@ from .ranking import heading
 from .table import columns
 
 SHOWN_INCIDENCES = 14
+RECIPROCITY = ("reciprocal", "not-reciprocal", "dim-values-off", "cosine-weighted", "cosine-i-weighted")
 SIGNS = {"outside": "outside", "error": "error", "warning": "doubt", "note": "-"}
 
 
@@ -20,7 +21,7 @@ def document(measurement: Measurement, found, corrections) -> dict:
         "schema": "brdfguide/inspect/1",
         "data": data_block(measurement),
         "coverage": {**by_code.get("coverage", {}), "by_theta_i": incidences(measurement)},
-        "reciprocity": by_code.get("reciprocal") or by_code.get("not-reciprocal") or by_code.get("cosine-weighted"),
+        "reciprocity": next((by_code[code] for code in RECIPROCITY if code in by_code), None),
         "energy": energy,
         "noise_relative": by_code.get("noise", {}).get("relative"),
         "findings": [finding(each) for each in found],
