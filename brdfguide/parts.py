@@ -115,12 +115,18 @@ class Parts:
         return bool(kept) and all(_law(term.model, cut.way(term.label)) is not None for term in kept)
 
     def model(self, term: Term, way: frozenset[str]) -> Model:
-        """The law of one term without the features in `way`; its parameters are the same."""
-        law, mirror = _law(term.model, way), None if MIRROR in way else term.model.mirror
-        if WAVELENGTH in way:
-            one = partial(self._at_one_wavelength, amplitude=term.model.amplitude)
-            law, mirror = one(law), mirror and one(mirror)  # a mirror part is proportional to the amplitude, if there is one
-        return replace(term.model, brdf=law, mirror=mirror, gradient=None if way else term.model.gradient, without={})
+        """The law of one term without the features in `way`; its parameters are the same.
+
+        A body that is quadratic in its albedo becomes proportional to it with the first feature that it loses.
+        """
+        law, mirror, parameters = _law(term.model, way), None if MIRROR in way else term.model.mirror, term.model.parameters
+        if way & term.model.without.keys() and term.model.amplitude is None:
+            parameters = tuple(replace(p, linear=p.name == "albedo") for p in parameters)
+        model = replace(term.model, brdf=law, mirror=mirror, parameters=parameters, gradient=None if way else term.model.gradient, without={})
+        if WAVELENGTH not in way:
+            return model
+        one = partial(self._at_one_wavelength, amplitude=model.amplitude)
+        return replace(model, brdf=one(law), mirror=mirror and one(mirror))  # a mirror part is proportional to the amplitude, if there is one
 
     def _at_one_wavelength(self, law, amplitude: str | None):
         """`law` at the mean wavelength and with the mean of each shape parameter; its amplitude keeps its channels."""

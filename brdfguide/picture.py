@@ -5,7 +5,7 @@ first its amplitudes, on the sums; where that nearly suffices, its shapes as wel
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,6 +18,8 @@ from .parts import MIRROR, Cut, Parts
 from .quadrature import Quadrature
 
 REFIT_PIXELS = 600  # enough for the few amplitudes that a refit moves
+FORETOLD = 1.5  # times what was foretold: how much worse a fresh draw may be
+UNSEEN = 0.05  # JND, that a difference has to exceed to be of any interest
 DARK = 1e-12  # of a perfect white: below this a reference pixel says nothing
 
 
@@ -34,6 +36,15 @@ class Errors:
 
     def within(self, tolerance, factor: float = 1.0) -> bool:
         return self.visible <= factor * tolerance.worst + 1e-9 and self.p95 <= factor * tolerance.p95 + 1e-9
+
+    def foretells(self, fresh: "Errors") -> bool:
+        """Whether another draw of the same picture is no more than 1.5 times worse, or nothing that could be seen."""
+        return all(new <= max(FORETOLD * old, UNSEEN) for old, new in ((self.visible, fresh.visible), (self.p95, fresh.p95)))
+
+    def or_worse(self, other: "Errors") -> "Errors":
+        """Of two draws of one picture the one that differs more; no percentile below that of either."""
+        worse = max(self, other, key=lambda each: each.visible)
+        return replace(worse, mean=max(self.mean, other.mean), p95=max(self.p95, other.p95), worst=max(self.worst, other.worst))
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +105,10 @@ class Picture:
 
     def refitted(self, cut: Cut) -> dict[str, np.ndarray]:
         """By label, the factors (channels,) on the amplitudes that remain, for the least square of JND over the picture."""
-        kept = [term for term in self.parts.sum.terms if cut.keeps(term.label)]
-        layers = [self.layer(term, cut.way(term.label)) for term in kept]
+        layers = [self.layer(term, cut.way(term.label)) for term in self.parts.sum.terms if cut.keeps(term.label)]
         fixed = sum(still for _, still in layers)
         moving, scaled, highest = [], [], []
-        for term, (follows, still) in zip(kept, layers):
+        for term, (follows, still) in zip(self.parts.pruned(cut).terms, layers):
             value = self.parts.of(term).get(term.model.amplitude)
             if value is None or not np.any(value) or not follows.any():
                 fixed = fixed + follows
@@ -133,13 +143,12 @@ class Picture:
     def values(self, cut: Cut, factors: Mapping) -> dict:
         """The values of the sum that `cut` leaves, with its amplitudes multiplied."""
         values = {}
-        for term in self.parts.sum.terms:
-            if cut.keeps(term.label):
-                for name, value in self.parts.of(term).items():
-                    if name == term.model.amplitude and term.label in factors:
-                        value = np.asarray(value) * factors[term.label]
-                        value = float(value[0]) if value.size == 1 else value
-                    values[f"{term.label}.{name}"] = value
+        for term in self.parts.pruned(cut).terms:
+            for name, value in self.parts.of(term).items():
+                if name == term.model.amplitude and term.label in factors:
+                    value = np.asarray(value) * factors[term.label]
+                    value = float(value[0]) if value.size == 1 else value
+                values[f"{term.label}.{name}"] = value
         return values
 
     # --- differences --------------------------------------------------------------------------------

@@ -2,13 +2,14 @@
 
     every cut of the model → amplitudes refitted → JND over the picture, and its measured time
     pick   = the cheapest within the tolerance, whose saving can be measured
-    check  = the same picture drawn afresh, and with every angle 10 % smaller and larger
+    check  = the same picture drawn afresh, until one draw foretells the next; and with every angle 10 % smaller and larger
 
 What may differ is said by the scene; what was assumed where it is silent is `scene.DEFAULT`.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -23,10 +24,10 @@ from .picture import Errors, Picture, lobe_width
 from .scene import Scene
 from .search import Candidate
 
-FIRST_PIXELS, MOST_PIXELS = 1500, 8000
+FIRST_PIXELS, ENOUGH_PIXELS, MOST_PIXELS = 750, 3000, 8000
 MOST_WORK = 3e8  # additions to judge all ways to keep all terms once: some half second
 RGB_UM = (0.61, 0.55, 0.46)  # dominant wavelengths of red, green and blue
-FRESH_FACTOR = 1.5  # how far the worst pixel of a picture drawn afresh may lie above the tolerance
+MOST_DRAWS, MOST_MORE = 4, 8  # fresh draws of a picture, until one foretells the next; their pixels, times those searched with
 STRAY = (0.9, 1.1)
 
 
@@ -105,6 +106,7 @@ def prune(
     progress("timing what is left")
     whole, rows = cuts[NOTHING], search.rows(picture)
     laws = search.law(whole.sum, whole.values), search.law(pick.sum, pick.values)
+    candidates = [each for each in candidates if each.values is not pick.values] + [pick]
     savings, front = search.times(picture, singles, search.front(candidates))
     whole_time, time = (costs.times({"": laws[0]}, rows)[""],) * 2 if pick.whole else costs.compare(*laws, rows)
     bounds = screens.bounds(picture)
@@ -149,9 +151,10 @@ def _converged(draw, scene: Scene, seed: int):
         work = search.work_of_ways(picture) if before is None else work
         singles = _singles(picture)
         now = np.array([min(value, most) for errors in singles.values() for value in (errors.visible, errors.p95)])
-        change = np.inf if before is None else float(np.max(np.abs(now - before), initial=0.0))
-        if scene.pairs or change < least or size * 2 > MOST_PIXELS or 2 * len(search.rows(picture)) * work > MOST_WORK:
-            return picture, singles, 0.0 if scene.pairs else change
+        change = 0.0 if before is None else float(np.max(np.abs(now - before), initial=0.0))
+        settled = change < least and size >= ENOUGH_PIXELS
+        if scene.pairs or before is not None and (settled or size * 2 > MOST_PIXELS or 2 * len(search.rows(picture)) * work > MOST_WORK):
+            return picture, singles, change
         size, before = size * 2, now
 
 
@@ -163,8 +166,12 @@ def _singles(picture: Picture) -> dict[Part, Errors]:
 
 def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int):
     """The cheapest candidate within the tolerance that stands the checks, its errors there, and what was refused on the way."""
-    scene = picture.quadrature.scene
-    checks, seen = None, set()
+    scene, size, whole = picture.quadrature.scene, len(picture.weights), cuts[NOTHING]
+    # only the pick and the whole are judged now, so that many more pixels can be had, and rare ones are found
+    more = int(np.clip(MOST_WORK / (4 * whole.work * len(search.rows(picture))), 1, MOST_MORE))
+    afresh = lru_cache(lambda step: draw(scene, more * size, seed + step))
+    strayed = lru_cache(lambda factor: draw(scene.scaled(factor), size, seed))
+    seen = set()
     refused: tuple[Finding, ...] = ()
     for each in sorted((each for each in candidates if each.errors.within(scene.tolerance)), key=lambda each: each.work):
         each = _worth_it(picture, each, cuts)
@@ -173,22 +180,31 @@ def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int):
         if id(each) in seen:
             continue
         seen.add(id(each))
-        if checks is None:
-            size = len(picture.weights)
-            again, strayed = draw(scene, size, seed + 1), {factor: draw(scene.scaled(factor), size, seed) for factor in STRAY}
-            checks = {"fresh": again or picture} | {factor: check for factor, check in strayed.items() if check}
-        moved = {key: check.errors(check.radiance(each.sum, each.values)) for key, check in checks.items()}
-        fresh = moved.pop("fresh")
-        if not fresh.within(scene.tolerance, FRESH_FACTOR):
-            why = f"{fresh.visible:.2g} JND at worst on fresh directions"
+        each, fresh = _foretold(each, picture, afresh)
+        moved = {factor: check.errors(check.radiance(each.sum, each.values)) for factor in STRAY if (check := strayed(factor))}
+        if not fresh.within(scene.tolerance):
+            why = f"{fresh.visible:.2g} at worst and {fresh.p95:.2g} for 95 % of the picture on fresh directions"
         elif scene.camera_moves and not all(errors.within(scene.tolerance) for errors in moved.values()):
-            why = f"{max(errors.visible for errors in moved.values()):.2g} JND at worst with the angles 10 % off, and the camera moves"
+            why = f"{max(errors.visible for errors in moved.values()):.2g} at worst with the angles 10 % off, and the camera moves"
         else:
             return each, fresh, moved, refused
         if len(refused) < 3:
             refused += (Finding("pruned-refused", f"{each} would do on the drawn directions, but not when checked: {why}"),)
-    whole = cuts[NOTHING]
     return whole, whole.errors, dict.fromkeys(STRAY, whole.errors), refused
+
+
+def _foretold(each: Candidate, picture: Picture, afresh) -> tuple[Candidate, Errors]:
+    """The candidate with its errors on as many draws as it takes until they foretell the next, and the errors on that one.
+
+    Takes  afresh(step), the picture drawn afresh.
+    """
+    for step in range(1, MOST_DRAWS + 1):
+        check = afresh(step) or picture
+        fresh = check.errors(check.radiance(each.sum, each.values))
+        if each.errors.foretells(fresh) or not fresh.within(picture.tolerance):
+            break
+        each = replace(each, errors=each.errors.or_worse(fresh))
+    return each, fresh
 
 
 def _worth_it(picture: Picture, pick: Candidate, cuts: dict) -> Candidate:

@@ -103,12 +103,13 @@ class Scene:
 
     def describe(self) -> str:
         """One sentence: the assumptions behind every number."""
-        views = "listed directions" if self.pairs else f"{self.shape}, camera {_range(self.camera)}"
-        lights = ", ".join(f"{_range(light.directions)} radius {light.radius_deg:g}°" for light in self.lights)
+        views = f"{len(self.pairs)} listed directions" if self.pairs else f"{self.shape}, camera {_range(self.camera)}"
+        lights = ", ".join(f"{'' if self.pairs else _range(light.directions) + ' '}radius {light.radius_deg:g}°" for light in self.lights)
         around = f", environment {self.environment:g}" if self.environment else ""
+        size = "" if self.pairs else f"{self.pixels:g} pixels; "
         d = self.display
         return (
-            f"{self.name}: {views}; light {lights}{around}; {self.pixels:g} pixels; {self.colour}; "
+            f"{self.name}: {views}; light {lights}{around}; {size}{self.colour}; "
             f"exposure {d.exposure:g}, white {d.white:g}, floor {d.floor:g}, Weber fraction {d.weber:g}; "
             f"tolerance {self.tolerance.worst:g} at worst and {self.tolerance.p95:g} for 95 % of the picture"
         )
@@ -211,7 +212,7 @@ def _sensible(document):
         if low > high:
             yield f"{place}.theta_deg", f"'{place}.theta_deg' runs from {low:g} down to {high:g}; the smaller comes first"
         if high > 90 and shape in ("plane", "arbitrary"):
-            yield f"{place}.theta_deg", f"'{place}.theta_deg' reaches {high:g}; a {shape} surface is seen and lit from above, 0 to 90"
+            yield f"{place}.theta_deg", f"'{place}.theta_deg' reaches {high:g}; a surface of shape {shape} is seen and lit from above, 0 to 90"
         low, high = _both(group.get("phi_deg", (0.0, 360.0)))
         if not low <= high <= low + 360:
             yield f"{place}.phi_deg", f"'{place}.phi_deg' runs from {low:g} to {high:g}; the smaller comes first, at most 360 apart"

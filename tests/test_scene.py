@@ -51,7 +51,7 @@ def test_default_scene_leaves_no_angle_out():
         ("shape: plain", "'shape' is 'plain'; did you mean 'plane'?"),
         ("shap: plane", "no key called 'shap'; did you mean 'shape'"),
         ("camera: {theta_deg: [40, 10]}", "'camera.theta_deg' runs from 40 down to 10"),
-        ("camera: {theta_deg: [10, 100]}\nshape: plane", "a plane surface is seen and lit from above"),
+        ("camera: {theta_deg: [10, 100]}\nshape: plane", "a surface of shape plane is seen and lit from above"),
         ("camera: {theta_deg: [0, 20, 30]}", "has 3 numbers; wanted 1 or 2"),
         ("camera: {theta_deg: 200}", "'camera.theta_deg' is 200"),
         ("shape: sphere\nin_plane: true", "a sphere shows normals in every plane"),

@@ -34,6 +34,11 @@ def once(geom: Geometry, *, albedo, roughness) -> np.ndarray:
     return albedo / (pi * (1 + C1 * roughness)) * (1 + roughness * geom.remembered(_forward))
 
 
+def smooth(geom: Geometry, *, albedo, roughness) -> np.ndarray:
+    """Lambert's law [1/sr]."""
+    return np.broadcast_to(albedo / pi, np.broadcast_shapes(geom.shape, np.shape(albedo)))
+
+
 def gradient(geom: Geometry, names, *, albedo, roughness) -> dict[str, np.ndarray]:
     """Through A' = -c1 A² and Ē' = A' (1 + c2 r) + A c2."""
     a = 1 / (1 + C1 * roughness)
@@ -75,7 +80,7 @@ MODEL = Model(
         Parameter("roughness", 0.4, 0.0, 1.0, meaning="0: Lambert; 1: the roughest", starts=(0.2, 0.7)),
     ),
     gradient=gradient,
-    without={"interreflection": once},
+    without={"interreflection": once, "roughness": smooth},
     summary="rough diffusers without loss or gain of light: clay, matte paper, dust; what OpenPBR calls base diffuse",
     pins=(
         Pin(in_plane(45, 50), {"albedo": 0.75, "roughness": 0.7}, f=0.14751454901569819, source="50 digits"),

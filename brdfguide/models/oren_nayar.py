@@ -33,6 +33,12 @@ def qualitative(geom: Geometry, *, albedo, spread) -> np.ndarray:
     return albedo / pi * (1 - 0.5 * s2 / (s2 + 0.33) + 0.45 * s2 / (s2 + 0.09) * forward)
 
 
+def smooth(geom: Geometry, *, albedo, spread) -> np.ndarray:
+    """Lambert's law as bright as the short form toward the normal [1/sr]."""
+    s2 = spread * spread
+    return np.broadcast_to(albedo / pi * (1 - 0.5 * s2 / (s2 + 0.33)), np.broadcast_shapes(geom.shape, np.shape(albedo)))
+
+
 def gradient(geom: Geometry, names, *, albedo, spread) -> dict[str, np.ndarray]:
     """df/dalbedo, and df/dspread with d(s²/(s² + c))/dspread = 2 spread c/(s² + c)²."""
     s2 = spread * spread
@@ -78,7 +84,7 @@ MODEL = Model(
         Parameter("spread", 0.3, 0.0, 0.66, unit="rad", meaning="standard deviation of the facets' tilt", starts=(0.1, 0.3, 0.6)),
     ),
     gradient=gradient,
-    without={"interreflection": qualitative},
+    without={"interreflection": qualitative, "roughness": smooth},
     summary="rough diffusers: clay, matte paper, dust; flatter than Lambert, brighter toward the light",
     pins=(
         Pin(in_plane(45, 50), {"albedo": 0.75, "spread": 0.4}, f=0.17667271277907862, source="50 digits"),

@@ -35,7 +35,7 @@ def document(found: Pruned, timing: bool = True) -> dict:
         "next_cheaper": _next(found, -1),
         "next_better": _next(found, 1),
         "box": {name: [round(low, 2), round(high, 2)] for name, (low, high) in found.box_deg.items()},
-        "quadrature": {"pixels": found.pixels, "skipped_dark": found.skipped, "convergence": found.convergence, "seed": found.seed},
+        "quadrature": {"pixels": found.pixels, "skipped_dark": found.skipped, "convergence": found.convergence, "seed": found.seed, "listed": bool(scene.pairs)},
         "findings": [finding(each) for each in found.findings],
     }
     if timing:
@@ -115,8 +115,8 @@ def _verdict(block: dict) -> str:
         return "\n".join([*lines, f"keep all of {block['model']}: nothing that can be left out within the tolerance saves measurable time"])
     does = f"use {block['pruned']} in place of {block['model']}, without {', '.join(out)}" if block["other_law"] else f"leave out {', '.join(out)} of {block['model']}"
     lines.append(wrapped(does).lstrip())
-    lines.append(f"  differs by {error['mean']:.2g} {unit} on average, {error['p95']:.2g} at most for 95 % of the picture, {error['worst_visible']:.2g} at worst")
-    lines.append(f"  ({_where(error)}); {fresh['worst_visible']:.2g} at worst on fresh directions")
+    lines.append(f"  differs by {_jnd(error['mean'])} {unit} on average, {_jnd(error['p95'])} at most for 95 % of the picture, {_jnd(error['worst_visible'])} at worst")
+    lines.append(f"  ({_where(error)})" + ("" if block["quadrature"]["listed"] else f"; {_jnd(fresh['worst_visible'])} at worst on fresh directions"))
     time = block.get("time_per_sample_ns")
     if time:
         lines.append(f"  {time['whole']:.0f} -> {time['pruned']:.0f} ns per sample ({time['whole'] / time['pruned']:.1f} times faster), saving {time['saved']:.0f} ± {time['saved_stderr']:.0f}")
@@ -126,6 +126,8 @@ def _verdict(block: dict) -> str:
 
 
 def _parts_table(block: dict) -> str:
+    if not block["parts"]:
+        return ""
     timed = "time_per_sample_ns" in block
     header = ("left out alone", "mean", "p95", "worst", "bound", "codes", "where", *(("saves ns",) if timed else ()), "")
     lines = []
@@ -162,13 +164,22 @@ def _label(each: dict) -> str:
 def _reach(block: dict) -> str:
     angles = ", ".join(f"{name.removesuffix('_deg')} {low:g}..{high:g}" for name, (low, high) in block["box"].items())
     q = block["quadrature"]
-    change = f", doubling them changes the deciding numbers by {q['convergence']:.2g} {_short(block)}" if q["convergence"] is not None else ""
+    if q["listed"]:
+        return wrapped(f"holds for the {q['pixels']} directions listed: {angles} degrees").lstrip()
+    change = f", doubling them changed the deciding numbers by {_jnd(q['convergence'])} {_short(block)}"
     dark = f", {q['skipped_dark']} too dark to compare" if q["skipped_dark"] else ""
     return wrapped(f"holds for {angles} degrees; {q['pixels']} pixels{change}{dark}, seed {q['seed']}").lstrip()
 
 
+def _jnd(value: float) -> str:
+    """Two digits of what might be seen, 0 of what is far from it."""
+    return f"{value:.2g}" if value >= 0.005 else "0"
+
+
 def _where(error: dict) -> str:
     at = error["at"]
+    if at["theta_i_deg"] >= 90:
+        return f"theta_r {at['theta_r_deg']:.0f}, turned from the light"
     return f"theta_i {at['theta_i_deg']:.0f}, theta_r {at['theta_r_deg']:.0f}, phi {at['phi_deg']:.0f}"
 
 
