@@ -6,7 +6,7 @@ A light is a disc and is averaged over; a mirror shows it; a uniform environment
 and interpolated. Everything is linear in f, so that the parts of a law can be integrated apart and added.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, pi, radians
 
@@ -18,7 +18,7 @@ from .scene import Scene
 
 LEAST_RADIUS = radians(0.5 / 60)  # half an arc minute: what the eye takes for a point
 MOST_DISC_POINTS = 24
-ENVIRONMENT_NODES, ENVIRONMENT_POINTS = 16, 512
+ENVIRONMENT_NODES, ENVIRONMENT_POINTS, FEWER_POINTS = 16, 512, 128
 EVEN_STEPS = np.array([0.7548776662466927, 0.5698402909980532])  # 1/p and 1/p² of p³ = p + 1: points that fill the square evenly
 FLIP = np.array([-1.0, -1.0, 1.0])  # a direction to its mirror direction
 
@@ -33,6 +33,7 @@ class Quadrature:
     to_camera: np.ndarray  # (pixels, 3)
     to_lights: np.ndarray  # (pixels, lights, 3)
     width: float  # of the narrowest lobe [rad]
+    points: int = ENVIRONMENT_POINTS  # of the environment, for each view angle integrated
 
     def __len__(self) -> int:
         return len(self.weights)
@@ -80,8 +81,8 @@ class Quadrature:
     def around(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
         """Directions all around at a few view angles, the factor of each row, and (pixels, nodes) to interpolate."""
         angles = np.radians(89.5 * np.sin(np.linspace(0, pi / 2, ENVIRONMENT_NODES)))  # closer together toward grazing
-        view = np.repeat(draws.from_angles(np.cos(angles), 0.0)[:, None, :], ENVIRONMENT_POINTS, axis=1)
-        half = ENVIRONMENT_POINTS // 2
+        view = np.repeat(draws.from_angles(np.cos(angles), 0.0)[:, None, :], self.points, axis=1)
+        half = self.points // 2
         u, v = np.remainder(np.arange(half)[:, None] * EVEN_STEPS + 0.5 / half, 1.0).T
         mirror, spread = view * FLIP, 2 * self.width
         # half of the points even under the cosine, half about the mirror direction, each weighed by both densities
@@ -89,7 +90,7 @@ class Quadrature:
         towards = np.concatenate([even, draws.near(mirror[:, half:], spread, u, v)], axis=1)
         cosine = np.maximum(towards[..., 2], 0.0)
         density = 0.5 * cosine / pi + 0.5 * draws.near_density(towards, mirror, spread)
-        factor = self.scene.environment / pi * cosine / density / ENVIRONMENT_POINTS * self.unit
+        factor = self.scene.environment / pi * cosine / density / self.points * self.unit
         geom = rows(Geometry.from_vectors(towards.reshape(-1, 3), view.reshape(-1, 3)))
         theta = np.minimum(np.arctan2(np.hypot(self.to_camera[:, 0], self.to_camera[:, 1]), self.to_camera[:, 2]), angles[-1])
         low = np.minimum(np.searchsorted(angles, theta, side="right") - 1, ENVIRONMENT_NODES - 2)
@@ -106,7 +107,7 @@ class Quadrature:
         if self.scene.environment:
             geom, factor, between = self.around
             values = brdf(geom) * factor[:, None]
-            total = total + between @ values.reshape(ENVIRONMENT_NODES, ENVIRONMENT_POINTS, -1).sum(axis=1)
+            total = total + between @ values.reshape(ENVIRONMENT_NODES, self.points, -1).sum(axis=1)
         return total
 
     def mirror_radiance(self, mirror) -> np.ndarray:
@@ -116,7 +117,7 @@ class Quadrature:
 
     def at(self, wavelength) -> "Quadrature":
         """The same pixels, with every geometry at other wavelengths [µm]."""
-        other = Quadrature(self.scene, self.seed, self.weights, self.to_camera, self.to_lights, self.width)
+        other = replace(self)
         for name in ("lit", "mirrored", "around") if self.scene.environment else ("lit", "mirrored"):
             geom, *rest = getattr(self, name)
             other.__dict__[name] = (geom.at(wavelength), *rest)
@@ -130,8 +131,8 @@ class Quadrature:
         return round(float(geom.theta_i_deg), 2), round(float(geom.theta_r_deg), 2), round(phi, 2)
 
     def some(self, pixels) -> "Quadrature":
-        """The same for some of the pixels, with their shares of the picture unchanged."""
-        return Quadrature(self.scene, self.seed, self.weights[pixels], self.to_camera[pixels], self.to_lights[pixels], self.width)
+        """The same for some of the pixels, with their shares of the picture unchanged, and a coarser environment."""
+        return replace(self, weights=self.weights[pixels], to_camera=self.to_camera[pixels], to_lights=self.to_lights[pixels], points=FEWER_POINTS)
 
     @cached_property
     def centres(self) -> Geometry:

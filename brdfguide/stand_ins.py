@@ -15,7 +15,7 @@ from .models._base import Sum, Term
 from .picture import Picture
 
 LAWS = ("phong-lewis", "blinn", "ward-gmd", "ward", "cook-torrance", "ggx", "beckmann")  # cheapest first
-SHAPE_PIXELS = 300  # enough for one or two shapes
+SHAPE_PIXELS = 200  # enough for one or two shapes
 STEP = 1e-4
 
 
@@ -62,7 +62,6 @@ def reshaped(picture: Picture, sum_: Sum, values: Mapping) -> dict:
     q = picture.quadrature
     some = np.arange(0, len(q), -(-len(q) // SHAPE_PIXELS))
     small = Picture(picture.parts, q.some(some).at(picture.parts.wavelength))
-    small.__dict__["reference"] = picture.reference[some]
     display, channels = q.scene.display, picture.channels
     root = np.sqrt(small.weights)[:, None]
     wanted = display.logarithm(small.reference)
