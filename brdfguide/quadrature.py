@@ -141,8 +141,11 @@ class Quadrature:
         return Geometry.from_vectors(self.to_lights.reshape(-1, 3), self.to_camera[pixel])
 
     def box(self) -> dict[str, tuple[float, float]]:
-        """Smallest and largest angle [deg] that occurs, of those a law is written in."""
+        """Smallest and largest angle [deg] that occurs, of those a law is written in; of the view alone where no light reaches."""
         geom = self.centres[self.centres.lit]
+        if not len(geom):
+            theta_r = self.centres.theta_r_deg
+            return {"theta_r_deg": (float(theta_r.min()), float(theta_r.max()))}
         angles = {
             "theta_i_deg": geom.theta_i_deg,
             "theta_r_deg": geom.theta_r_deg,
@@ -150,13 +153,13 @@ class Quadrature:
             "theta_h_deg": np.degrees(np.arctan(np.sqrt(geom.tan2_h))),
             "theta_d_deg": np.degrees(np.arccos(np.clip(geom.cos_d, 0, 1))),
         }
-        return {name: (float(values.min()), float(values.max())) for name, values in angles.items() if values.size}
+        return {name: (float(values.min()), float(values.max())) for name, values in angles.items()}
 
     @cached_property
     def reach_deg(self) -> dict[str, tuple[float, float]]:
         """The box widened to the rims of the lights, and to all angles where light comes from all around."""
         if self.scene.environment:
-            return {name: (0.0, 90.0) if name != "phi_deg" else (0.0, 180.0) for name in self.box()}
+            return dict.fromkeys(("theta_i_deg", "theta_r_deg", "theta_h_deg", "theta_d_deg"), (0.0, 90.0)) | {"phi_deg": (0.0, 180.0)}
         rim = float(np.degrees(self.radii.max()))
         widen = {"theta_i_deg": rim, "theta_h_deg": rim / 2, "theta_d_deg": rim / 2}
         return {name: (max(low - widen.get(name, 0.0), 0.0), min(high + widen.get(name, 0.0), 90.0)) for name, (low, high) in self.box().items()}

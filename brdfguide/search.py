@@ -49,8 +49,9 @@ def law(sum_: Sum, values: Mapping):
 
 
 def rows(picture: Picture) -> Geometry:
-    """The directions on which costs are taken."""
-    return picture.quadrature.lit[0]
+    """The directions on which costs are taken: to the lights, or all around where none is seen."""
+    to_lights = picture.quadrature.lit[0]
+    return to_lights if len(to_lights) else picture.quadrature.around[0]
 
 
 def is_out(part: Part, cut: Cut) -> bool:

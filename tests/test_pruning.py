@@ -11,6 +11,7 @@ from brdfguide.errors import NoAnswer
 from brdfguide.geometry import in_plane
 from brdfguide.parts import Cut, Part, Parts
 from brdfguide.picture import Picture, lobe_width
+from brdfguide.report import pruned as report
 
 from .conftest import ROOT
 
@@ -268,6 +269,13 @@ def test_scene_in_the_dark_has_no_answer():
     dark = scene.parse_scene("{shape: sphere, camera: {theta_deg: 0}, lights: [{theta_deg: 180, radius_deg: 0.1}]}")
     with pytest.raises(NoAnswer, match="nothing is both lit and seen"):
         pruning.prune(models.get("lambertian"), {}, dark)
+
+
+def test_scene_lit_from_all_around_alone_has_a_box_of_views():
+    text = "{shape: box, camera: {theta_deg: [145, 168], phi_deg: 147}, lights: [{theta_deg: [24, 60], phi_deg: 0}], environment: 0.01, colour: grey}"
+    result = pruning.prune(models.get("coupled+ggx"), {}, scene.parse_scene(text))
+    assert set(result.box_deg) == {"theta_r_deg"}
+    assert "turned from the light" in report.text(report.document(result))
 
 
 def test_thin_crescent_is_seen_and_a_stray_into_the_dark_does_no_harm():
