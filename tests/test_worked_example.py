@@ -7,6 +7,7 @@ import pytest
 
 from brdfguide import models
 from brdfguide.geometry import in_plane
+from brdfguide.parts import NOTHING
 
 from .conftest import ROOT
 
@@ -43,6 +44,30 @@ def test_stated_number_comes_back_within_20_percent(material, scene, part, which
     place = WHICH.index(which)
     drawn = [example.demonstration(material, scene, seed)[part][place] for seed in example.SEEDS]
     assert example.comes_back(example.stated(material, scene)[part][place], drawn), drawn
+
+
+@pytest.mark.parametrize(
+    ("material", "scene", "kept", "worst", "albedo"),
+    [
+        ("rough plastic", "A", (), 0.9, 0.5225),
+        ("satin black", "A", ("Fresnel",), 1.6, None),
+        ("lapped lacquer", "A", ("spike", "series", "Fresnel"), None, 0.315),
+        ("rough plastic", "C", ("Fresnel", "masking", "coupling"), 41, None),
+    ],
+)
+def test_stated_choice_comes_back_and_the_lobe_is_always_in_it(material, scene, kept, worst, albedo):
+    """What is called "diffuse alone" keeps a lobe, Beckmann's with a constant Fresnel factor: with it kd is refitted to 0.5225."""
+    cut = NOTHING
+    for name in example.PARTS.keys() - set(kept):
+        cut = cut.without(example.PARTS[name])
+    drawn = []
+    for seed in example.SEEDS:
+        picture = example.sampled(material, scene, seed, example.demonstrated("Fresnel" not in kept), False)
+        factors = picture.refitted(cut)
+        drawn.append(picture.cut_errors(cut, factors).worst)
+        if albedo is not None:
+            assert picture.values(cut, factors)["coupled.albedo"] == pytest.approx(albedo, rel=0.005)
+    assert worst is None or example.comes_back(worst, drawn)
 
 
 @pytest.mark.parametrize("material", example.MATERIALS)
