@@ -82,17 +82,20 @@ def prune(
     wavelength=None,
     progress: Callable[[str], None] = lambda text: None,
     other_laws: bool = True,
+    timing: bool = True,
 ) -> Pruned:
     """The least of `sum_` that `scene` needs.
 
     Takes  values of the sum's parameters, scalars or (channels,); wavelength [µm] (channels,), by default the data's;
     geom_of_data, the directions that the values were fitted to, only to say where the scene goes beyond them;
-    other_laws, whether a simpler law may stand in for the lobes.
+    other_laws, whether a simpler law may stand in for the lobes; timing, whether times decide what is worth leaving out, or
+    operations alone, so that two runs give the same.
     Gives  Pruned.    Raises NoAnswer if the scene shows no lit surface.
     """
     parts = Parts(sum_, values, _wavelengths(values, wavelength, geom_of_data))
     width = lobe_width(sum_, values, parts.wavelength)
     draw = lambda scene_, size, seed_: _picture(parts, scene_, size, seed_, width)  # noqa: E731
+    clock = costs.times if timing else costs.counted
     progress("drawing the scene")
     picture, singles, convergence = _converged(draw, scene, seed)
     progress("leaving parts out")
@@ -102,21 +105,21 @@ def prune(
         progress("trying simpler laws")
         candidates += search.other_laws(picture, candidates)
     progress("checking on fresh directions")
-    pick, fresh, moved, refused = _picked(picture, candidates, cuts, draw, seed)
+    pick, fresh, moved, refused = _picked(picture, candidates, cuts, draw, seed, clock)
     progress("timing what is left")
     whole, rows = cuts[NOTHING], search.rows(picture)
     laws = search.law(whole.sum, whole.values), search.law(pick.sum, pick.values)
     candidates = [each for each in candidates if each.values is not pick.values] + [pick]
-    savings, front = search.times(picture, singles, search.front(candidates))
-    whole_time, time = (costs.times({"": laws[0]}, rows)[""],) * 2 if pick.whole else costs.compare(*laws, rows)
+    savings, front = search.times(picture, singles, search.front(candidates), clock)
+    whole_time, time = (clock({"": laws[0]}, rows)[""],) * 2 if pick.whole else costs.compare(*laws, rows, clock)
     bounds = screens.bounds(picture)
     findings = (
         *refused, *reach.unsettled(scene, convergence, len(picture.weights)), *reach.at_bounds(pick.sum, pick.values), *reach.strays(scene, moved),
-        *reach.beyond_data(picture.quadrature, geom_of_data), *reach.over_budget(scene, time, front),
+        *reach.beyond_data(picture.quadrature, geom_of_data), *(reach.over_budget(scene, time, front) if timing else ()),
     )  # fmt: skip
     return Pruned(
         scene, sum_, dict(values), pick.sum, pick.values, pick.cut, pick.stand_in, pick.errors, fresh, moved, whole_time, time,
-        tuple(costs.operations(each, rows[: search.COUNTED]) for each in laws),
+        tuple(costs.operations(each, rows[: costs.COUNTED]) for each in laws),
         tuple(Single(part, errors, savings[part], search.is_out(part, pick.cut), bounds.get(part)) for part, errors in singles.items()),
         front, picture.quadrature.box(), len(picture.quadrature), convergence, int(np.sum(picture.weights == 0)), seed, findings,
     )  # fmt: skip
@@ -164,7 +167,7 @@ def _singles(picture: Picture) -> dict[Part, Errors]:
     return {part: picture.cut_errors(cut, picture.refitted(cut)) for part, cut in cuts.items() if picture.parts.provided(cut)}
 
 
-def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int):
+def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int, clock):
     """The cheapest candidate within the tolerance that stands the checks, its errors there, and what was refused on the way."""
     scene, size, whole = picture.quadrature.scene, len(picture.weights), cuts[NOTHING]
     # only the pick and the whole are judged now, so that many more pixels can be had, and rare ones are found
@@ -174,7 +177,7 @@ def _picked(picture: Picture, candidates, cuts: dict, draw, seed: int):
     seen = set()
     refused: tuple[Finding, ...] = ()
     for each in sorted((each for each in candidates if each.errors.within(scene.tolerance)), key=lambda each: each.work):
-        each = _worth_it(picture, each, cuts)
+        each = _worth_it(picture, each, cuts, clock)
         if each.whole:
             break
         if id(each) in seen:
@@ -207,14 +210,14 @@ def _foretold(each: Candidate, picture: Picture, afresh) -> tuple[Candidate, Err
     return each, fresh
 
 
-def _worth_it(picture: Picture, pick: Candidate, cuts: dict) -> Candidate:
+def _worth_it(picture: Picture, pick: Candidate, cuts: dict, clock) -> Candidate:
     """The pick with every part back whose absence saves no time that can be measured."""
     back = [NOTHING] if pick.stand_in else [pick.cut.restoring(part) for part in sorted(pick.cut.out, reverse=True)]
     fuller = (search.judge(picture, cut, cuts) for cut in back)
     for each in fuller:
         if each is None or not each.errors.within(picture.tolerance):
             continue
-        longer, shorter = costs.compare(search.law(each.sum, each.values), search.law(pick.sum, pick.values), search.rows(picture))
+        longer, shorter = costs.compare(search.law(each.sum, each.values), search.law(pick.sum, pick.values), search.rows(picture), clock)
         if not longer.over(shorter).measurable:
-            return _worth_it(picture, each, cuts)
+            return _worth_it(picture, each, cuts, clock)
     return pick

@@ -15,7 +15,6 @@ from .parts import MIRROR, NOTHING, Cut, Part, Parts
 from .picture import Errors, Picture
 
 MOST_CUTS = 256  # tried one by one; with more, parts are left out greedily
-COUNTED = 64  # directions to count operations on
 NEAR_MISS = 6.0  # times the tolerance: worth refitting the shapes too
 MOST_NEAR_MISSES = 3
 
@@ -134,18 +133,18 @@ def front(candidates) -> tuple[Candidate, ...]:
 
 def work(picture: Picture, sum_: Sum, values: Mapping) -> float:
     """Operations per direction of a sum, in additions."""
-    return costs.work(costs.operations(law(sum_, values), rows(picture)[:COUNTED]))
+    return costs.work(costs.operations(law(sum_, values), rows(picture)[: costs.COUNTED]))
 
 
 def work_of_ways(picture: Picture) -> float:
     """Operations per direction of keeping every term in every way: what judging a picture costs."""
     parts = picture.parts
     laws = (_way_law(parts, term.label, way) for term in parts.sum.terms for way in parts.ways(term))
-    return sum(costs.work(costs.operations(each, rows(picture)[:COUNTED])) for each in laws)
+    return sum(costs.work(costs.operations(each, rows(picture)[: costs.COUNTED])) for each in laws)
 
 
-def times(picture: Picture, singles, shown) -> tuple[dict[Part, Saving], tuple[Candidate, ...]]:
-    """What each part in `singles` saves when left out alone, and the candidates in `shown` with their times."""
+def times(picture: Picture, singles, shown, clock) -> tuple[dict[Part, Saving], tuple[Candidate, ...]]:
+    """What each part in `singles` saves when left out alone, and the candidates in `shown` with their times, by `clock`."""
     parts = picture.parts
     laws: dict = {index: law(each.sum, each.values) for index, each in enumerate(shown)}
     for part in singles:
@@ -155,7 +154,7 @@ def times(picture: Picture, singles, shown) -> tuple[dict[Part, Saving], tuple[C
             laws[part] = partial(term.model.mirror, **parts.of(term))
         elif part.feature:
             laws[part] = _way_law(parts, part.label, frozenset({part.feature}))
-    measured = costs.times(laws, rows(picture))
+    measured = clock(laws, rows(picture))
     savings = {}
     for part in singles:
         whole = measured[part.label, frozenset()]

@@ -1,7 +1,7 @@
 """Pruning: what a scene does not need is left out, what it needs is kept, and the stated error holds."""
 
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import pytest
@@ -19,21 +19,11 @@ from .conftest import ROOT
 ROUGH_PLASTIC = {"coupled.albedo": 0.5, "he-torrance.sigma": 1.2, "he-torrance.slope": 0.15, "he-torrance.n": 1.5}
 LACQUER = {"coupled.albedo": 0.3, "he-torrance.sigma": 0.08, "he-torrance.slope": 0.0526, "he-torrance.n": 1.5}
 UM = np.array([0.55])
-MEASURED, TIMES = costs.compare, costs.times
 BELOW_20 = "{name: low angles, shape: plane, camera: {theta_deg: [0, 20]}, lights: [{theta_deg: [0, 20], radius_deg: 1}]}"
 
 
-@pytest.fixture(autouse=True, scope="module")
-def times_by_operations():
-    """A clock that no other process disturbs, so that picks are tested and not the machine; the real one is tested below."""
-
-    def ticks(law, geom):
-        return costs.Time(tuple(costs.work(costs.operations(law, geom[:64])) + np.zeros(costs.BATCHES)))
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(costs, "times", lambda laws, geom: {key: ticks(law, geom) for key, law in laws.items()})
-        patch.setattr(costs, "compare", lambda longer, shorter, geom: (ticks(longer, geom), ticks(shorter, geom)))
-        yield
+# times are operations here, which no other process disturbs: picks are tested and not the machine; the clock is tested below
+by_operations = partial(pruning.prune, timing=False)
 
 
 def worked(name):
@@ -43,7 +33,7 @@ def worked(name):
 @lru_cache
 def pruned(expression, values, name, other_laws, **changes):
     where = scene.parse_scene(name) if name.startswith("{") else worked(name)
-    return pruning.prune(models.get(expression), dict(values), replace(where, **changes), other_laws=other_laws)
+    return by_operations(models.get(expression), dict(values), replace(where, **changes), other_laws=other_laws)
 
 
 def prune(expression, values, name, other_laws=False, **changes):
@@ -235,8 +225,8 @@ def test_the_pruned_sum_is_the_picture_that_was_judged():
 
 
 def test_two_runs_pick_the_same():
-    first = pruning.prune(models.get("coupled+ggx"), {}, worked("frontal_product_shot"))
-    again = pruning.prune(models.get("coupled+ggx"), {}, worked("frontal_product_shot"))
+    first = by_operations(models.get("coupled+ggx"), {}, worked("frontal_product_shot"))
+    again = by_operations(models.get("coupled+ggx"), {}, worked("frontal_product_shot"))
     assert first.cut == again.cut
     assert first.errors == again.errors
     assert first.operations == again.operations
@@ -244,12 +234,12 @@ def test_two_runs_pick_the_same():
 
 def test_scene_beyond_the_data_is_told():
     data = in_plane(np.array([[20.0], [40.0]]), np.array([[-10.0], [30.0]]))
-    result = pruning.prune(models.get("lambertian+ggx"), {}, worked("gallery_light"), geom_of_data=data)
+    result = by_operations(models.get("lambertian+ggx"), {}, worked("gallery_light"), geom_of_data=data)
     found = next(each for each in result.findings if each.code == "scene-beyond-data")
     assert "none of which were measured" in found.text
     inside = in_plane(np.linspace(0, 89, 90)[:, None], 30.0)
     calm = scene.parse_scene("{shape: plane, camera: {theta_deg: [29, 31]}, lights: [{theta_deg: [0, 80]}], in_plane: true}")
-    assert not [f for f in pruning.prune(models.get("lambertian+ggx"), {}, calm, geom_of_data=inside).findings if f.code == "scene-beyond-data"]
+    assert not [f for f in by_operations(models.get("lambertian+ggx"), {}, calm, geom_of_data=inside).findings if f.code == "scene-beyond-data"]
 
 
 def test_straying_camera_is_told_and_a_moving_one_is_obeyed():
@@ -261,26 +251,26 @@ def test_straying_camera_is_told_and_a_moving_one_is_obeyed():
 
 
 def test_budget_that_cannot_be_kept_is_told():
-    result = prune("coupled+ggx", {}, "road_at_sunset", budget_ns=0.5)
+    result = pruning.prune(models.get("coupled+ggx"), {}, replace(worked("road_at_sunset"), budget_ns=0.5))
     assert "over-budget" in [f.code for f in result.findings]
 
 
 def test_scene_in_the_dark_has_no_answer():
     dark = scene.parse_scene("{shape: sphere, camera: {theta_deg: 0}, lights: [{theta_deg: 180, radius_deg: 0.1}]}")
     with pytest.raises(NoAnswer, match="nothing is both lit and seen"):
-        pruning.prune(models.get("lambertian"), {}, dark)
+        by_operations(models.get("lambertian"), {}, dark)
 
 
 def test_scene_lit_from_all_around_alone_has_a_box_of_views():
     text = "{shape: box, camera: {theta_deg: [145, 168], phi_deg: 147}, lights: [{theta_deg: [24, 60], phi_deg: 0}], environment: 0.01, colour: grey}"
-    result = pruning.prune(models.get("coupled+ggx"), {}, scene.parse_scene(text))
+    result = by_operations(models.get("coupled+ggx"), {}, scene.parse_scene(text))
     assert set(result.box_deg) == {"theta_r_deg"}
     assert "turned from the light" in report.text(report.document(result))
 
 
 def test_thin_crescent_is_seen_and_a_stray_into_the_dark_does_no_harm():
     crescent = scene.parse_scene("{shape: sphere, camera: {theta_deg: 0}, lights: [{theta_deg: 174}], colour: grey}")
-    result = pruning.prune(models.get("coupled+ggx"), {}, crescent)
+    result = by_operations(models.get("coupled+ggx"), {}, crescent)
     assert result.pixels > 100
     assert set(result.moved) <= {0.9, 1.1}
 
@@ -289,12 +279,12 @@ def test_colour_is_judged_by_delta_e_and_wavelength_can_be_left_out():
     wavelengths = np.array([0.61, 0.55, 0.46])
     values = {"lambertian.albedo": np.array([0.6, 0.3, 0.1]), "he-torrance.sigma": 1.5, "he-torrance.slope": 0.1}
     where = replace(worked("frontal_product_shot"), colour="rgb")
-    result = pruning.prune(models.get("lambertian+he-torrance"), values, where, wavelength=wavelengths)
+    result = by_operations(models.get("lambertian+he-torrance"), values, where, wavelength=wavelengths)
     colour = single(result, "he-torrance.wavelength")  # a lobe far rougher than the wavelength has none
     assert colour.errors.visible < 0.1 and colour.left_out
     assert np.shape(result.values["lambertian.albedo"]) == (3,)
     gold = {"ggx.n": np.array([0.18, 0.42, 1.37]), "ggx.k": np.array([3.4, 2.35, 1.77])}  # near 630, 550 and 470 nm
-    kept = pruning.prune(models.get("ggx"), gold, where, wavelength=wavelengths)
+    kept = by_operations(models.get("ggx"), gold, where, wavelength=wavelengths)
     assert np.shape(kept.values["ggx.n"]) == (3,)
 
 
@@ -363,11 +353,10 @@ def test_operations_are_counted():
     assert he > 10 * ward
 
 
-def test_time_of_a_longer_law_is_told_from_a_shorter_one(monkeypatch):
+def test_time_of_a_longer_law_is_told_from_a_shorter_one():
     geom = in_plane(30.0, np.linspace(-60, 60, 4000)[:, None])
     ggx = models.term("ggx")
-    monkeypatch.setattr(costs, "times", TIMES)
-    longer, shorter = MEASURED(lambda g: ggx(g, **ggx.defaults()), lambda g: g.cos_i, geom)
+    longer, shorter = costs.compare(lambda g: ggx(g, **ggx.defaults()), lambda g: g.cos_i, geom)
     assert longer.over(shorter).measurable
     assert not shorter.over(longer).measurable
 
@@ -376,4 +365,4 @@ def test_time_of_a_few_directions_is_not_that_of_a_call():
     """Five listed directions cost what five of many cost."""
     many, ggx = in_plane(30.0, np.linspace(-60, 60, 2000)[:, None]), models.term("ggx")
     law = {"": lambda g: ggx(g, **ggx.defaults())}
-    assert TIMES(law, many[:5])[""].ns < 3 * TIMES(law, many)[""].ns
+    assert costs.times(law, many[:5])[""].ns < 3 * costs.times(law, many)[""].ns

@@ -47,3 +47,12 @@ def test_recommend_takes_a_scene_too():
 @pytest.mark.parametrize("command", [FIT[:-1], ("recommend", "gloss-plastic")], ids=lambda words: words[0])
 def test_a_missing_scene_is_one_sentence(command):
     assert run(*command, "--scene", "nowhere.yaml", status=2).stderr.strip() == "brdfguide: nowhere.yaml: cannot read: No such file or directory"
+
+
+def test_without_timing_no_clock_decides_nor_speaks(tmp_path):
+    """A part that saves little is left out by its operations, and a budget in ns is not judged."""
+    tight = tmp_path / "tight.yaml"
+    tight.write_text("{name: tight, shape: plane, camera: {theta_deg: [0, 30]}, lights: [{theta_deg: [0, 30], radius_deg: 5}], colour: grey, budget_ns: 1}")
+    assert "do not fit the budget" in " ".join(run("recommend", "satin-plastic", "--scene", str(tight)).stdout.split())
+    first, again = (run("recommend", "satin-plastic", "--scene", str(tight), "--no-timing").stdout for _ in range(2))
+    assert first == again and "budget" not in first

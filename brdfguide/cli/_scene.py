@@ -10,14 +10,14 @@ SceneOption = Annotated[str | None, Option("--scene", help="A scene's YAML, or `
 STEPS = 5
 
 
-def prune(scene: str, model, values, *, data=None, wavelength=None, quiet: bool = False):
+def prune(scene: str, model, values, *, timing: bool, data=None, quiet: bool = False):
     """The model without what the scene in the file `scene` does not need."""
     from .. import pruning
     from .. import scene as scenes
 
     where = scenes.DEFAULT if scene == "default" else scenes.read_scene(scene)
     with progress(STEPS, quiet) as tell:
-        return pruning.prune(model, values, where, geom_of_data=data, wavelength=wavelength, progress=tell)
+        return pruning.prune(model, values, where, geom_of_data=data, progress=tell, timing=timing)
 
 
 def of_ranking(scene: str, ranked, measurement, result: dict, timing: bool, quiet: bool) -> str:
@@ -25,7 +25,7 @@ def of_ranking(scene: str, ranked, measurement, result: dict, timing: bool, quie
     from ..report import pruned
 
     best = ranked.recommended.fit
-    found = prune(scene, best.model, best.values, data=measurement.geom, quiet=quiet)
+    found = prune(scene, best.model, best.values, timing=timing, data=measurement.geom, quiet=quiet)
     result |= {"scene": pruned.document(found, timing), "left_out": pruned.left_out(found, timing)}
     return "\n\n" + pruned.text(result["scene"], not quiet)
 
@@ -40,5 +40,5 @@ def of_answer(scene: str, answer, document: dict, timing: bool, quiet: bool) -> 
 
     pick = answer.candidates[0]
     values = {key: array(value) if isinstance(value, tuple) else value for key, value in pick.start.items()}
-    document["scene"] = pruned.document(prune(scene, pick.model, values, quiet=quiet), timing)
+    document["scene"] = pruned.document(prune(scene, pick.model, values, timing=timing, quiet=quiet), timing)
     return "\n\n" + pruned.text(document["scene"], not quiet)
