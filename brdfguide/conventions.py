@@ -123,7 +123,7 @@ def side_of(geom: Geometry, brdf) -> Side:
             return Side("as_read", "only the mirror side was measured", True)
         return Side("turned", "only one side was measured, and it is brightest where a mirror would send the light", bool(np.all(beyond > -5)))
     contrast = ahead[both] - behind[both]
-    middle, largest = float(np.median(contrast)), float(contrast[np.argmax(np.abs(contrast))])
+    middle, largest = float(np.median(contrast)), float(np.clip(contrast[np.argmax(np.abs(contrast))], -300, 300))
     brighter = ahead if middle > 0 else behind
     order = np.flatnonzero(both)
     growth = float(brighter[order[-1]] - brighter[order[0]]) if len(order) > 1 else 0.0

@@ -68,7 +68,7 @@ def recognised(head: bytes, name: str) -> Format:
     """The one format that claims these first bytes. Raises InputError for none or for two."""
     if not head.strip():
         raise InputError(f"{name}: the file is empty")
-    every = members()
+    every, head = members(), _open.plain_head(head)
     claims = [each for each in every if each.name != "table" and each.recognises(head)]
     if len(claims) > 1:
         raise InputError(f"{name}: two readers claim this file: {' and '.join(each.name for each in claims)}; it follows neither format strictly")

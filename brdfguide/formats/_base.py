@@ -16,6 +16,7 @@ XYZ_UM = {"X": 0.600, "Y": 0.555, "Z": 0.446}  # peaks of the CIE 1931 colour ma
 TEXT_LIMIT = 160 * 2**20  # bytes of text: a whole MERL table as CSV; a gonioreflectometer fills a hundredth of it
 MOST_DEG = 1e5  # no azimuth turns more often
 MARGIN_DEG = 0.005  # how far beyond the horizon a rounded angle may lie
+FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d{1,3}\b)")  # the exponent of 1.5D-03
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Source:
 
     @cached_property
     def text(self) -> str:
-        """The file as text: UTF-8 or UTF-16 with a byte order mark, else Latin-1. Raises InputError for binary."""
+        """The file as text: UTF-8 or UTF-16 with a byte order mark, else Latin-1; exponents with E. Raises InputError for binary."""
         if self.data[:2] in (b"\xff\xfe", b"\xfe\xff"):
             encodings = ("utf-16",)
         elif b"\0" in self.data:
@@ -47,7 +48,7 @@ class Source:
             encodings = ("utf-8-sig", "latin-1")
         for encoding in encodings:
             try:
-                return self.data.decode(encoding)
+                return with_e(self.data.decode(encoding))
             except UnicodeDecodeError:
                 continue
         raise self.error("its text is neither UTF-8 nor UTF-16")
@@ -71,6 +72,18 @@ class Source:
             except ValueError:
                 raise self.error(f"value {place}: found '{cell[:40]}', wanted a number", line) from None
         return values
+
+
+def with_e(text: str) -> str:
+    """Fortran's 1.5D-03 as 1.5e-03, where the text has such numbers."""
+    return FORTRAN.sub("e", text) if re.search(r"\d\.\d*[dD][-+]\d", text) else text
+
+
+def degrees(radians):
+    """Degrees; those that were round before they became radians with six digits are round again."""
+    values = np.degrees(radians)
+    nearest = np.round(np.where(np.isfinite(values), values, 0.0), 2)
+    return np.where(np.abs(values - nearest) < 6e-5, nearest, values)
 
 
 @dataclass(frozen=True)

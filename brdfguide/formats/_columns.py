@@ -1,12 +1,12 @@
 """What the columns of a table mean: role, unit, wavelength and quantity out of a name such as `BRDF [1/sr] 550 nm`."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 # Each pattern is met by the name in lower case without unit, brackets, spaces and punctuation.
-_IN = "(i|in|inc|incident|incidence|incoming|l|light|illum|illumination|illuminant|source|lamp|wi|input|sun|solar)"
+_IN = "(i|0|in|inc|incident|incidence|incoming|l|light|illum|illumination|illuminant|source|lamp|wi|input|sun|solar)"
 _OUT = (
-    "(r|o|s|v|e|out|outgoing|output|scat|scatter|scattered|scattering|refl|reflected|reflection|reflect|view|viewing|viewer|det|detector"
+    "(r|o|s|v|e|out|outgoing|output|scat|scatter|scattered|scattering|ref|refl|reflected|reflection|reflect|view|viewing|viewer|det|detector"
     "|obs|observer|observation|receiver|camera|sensor|exit|exitance|emission|emergence|emergent|meas|measure|measured|measurement|wo)"
 )
 _POLAR, _AZIMUTH = "(theta|polar|zenith|angle|elevationfromnormal)", "(phi|azimuth|azimuthal|azi|az)"
@@ -20,15 +20,17 @@ ROLES = {
     "dphi": r"(d|delta|rel|relative)(phi|azimuth|azimuthangle|az)|phi(d|diff|difference|rel|relative)|azimuth(d|diff|difference|rel|relative)|raa|(phi|azimuth|azimuthal|az|azi)(angle)?",
     "wavelength": r"wavelength|wavelen|wl|wave|lambda|lam|lambda0|wavelengths",
     "stderr": r"(stderr|stderror|standarderror|se|std|stdev|stddev|sd|sigma|u|unc|uncertainty|uncert|error|err|delta|d|sem)(brdf|fr|f|bsdf|value)?"
-    r"|(brdf|fr|f|bsdf|value)(stderr|stderror|standarderror|se|std|stdev|stddev|sd|sigma|u|unc|uncertainty|uncert|error|err)",
+    r"|(brdf|fr|f|bsdf|value)(stderr|stderror|standarderror|se|std|stdev|stddev|sd|sigma|u|unc|uncertainty|uncert|error|err)"
+    r"|(brdf|fr|f|bsdf)?(rel|relative|expanded|combined|standard|absolute|abs|total)+(unc|uncertainty|uncert|error|err|stddev)(brdf|fr|f|bsdf)?(k[123])?"
+    r"|(brdf|fr|f|bsdf)?(unc|uncertainty|uncert|error)k[123]",
     "value": r"(brdf|bsdf|fr|f|fs|fr11|brdfr|value|values|val|brdfvalue|bsdfvalue|measuredbrdf|meanbrdf|brdfmean|bidirectionalreflectancedistributionfunction"
     r"|brdfcos|brdfcostheta|brdfcosthetar|brdfcosthetao|brdfxcos|brdfxcostheta|brdftimescos|ccbrdf|ccbsdf|bsdfcos|frcos|fcos|cosbrdf"
-    r"|cosinecorrectedbrdf|cosinecorrectedbsdf|cosineweightedbrdf|dsf"
+    r"|cosinecorrectedbrdf|cosinecorrectedbsdf|cosineweightedbrdf|dsf|ars|angleresolvedscatter|angleresolvedscattering"
     r"|reflectancefactor|brf|rf|hcrf|bicrf|radiancefactor|pibrdf|brdfpi|brdfxpi|reflectance|intensity)",
 }
 ROLES = {role: re.compile(pattern) for role, pattern in ROLES.items()}
 QUANTITY = {
-    "brdf-cos": re.compile(r"(brdf|bsdf|fr|f)(x|times)?cos(theta)?[ro]?|cosbrdf|cc(brdf|bsdf)|cosine(corrected|weighted)(brdf|bsdf)|dsf"),
+    "brdf-cos": re.compile(r"(brdf|bsdf|fr|f)(x|times)?cos(theta)?[ro]?|cosbrdf|cc(brdf|bsdf)|cosine(corrected|weighted)(brdf|bsdf)|dsf|ars|angleresolvedscatter(ing)?"),
     "reflectance-factor": re.compile(r"reflectancefactor|brf|rf|hcrf|bicrf|radiancefactor|pibrdf|brdf(x)?pi"),
 }
 COLOURS = {"r": "R", "red": "R", "g": "G", "green": "G", "b": "B", "blue": "B", "x": "X", "y": "Y", "z": "Z"}
@@ -60,7 +62,8 @@ def understood(name: str, place: int) -> Column:
     key, unit = _key_and_unit(name)
     um = _wavelength(name)
     if um is not None:
-        base, _ = _key_and_unit(re.sub(r"\d+(\.\d+)?[\s_]*(nm|um|µm|microns?)?$", "", _flat(name).rstrip(")]} ")))
+        base, _ = _key_and_unit(re.sub(r"[=@:]*\s*\d+(\.\d+)?[\s_]*(nm|um|µm|microns?)?$", "", _flat(name).rstrip(")]} ")))
+        base = "" if ROLES["wavelength"].fullmatch(base) else base
         role = "stderr" if base and ROLES["stderr"].fullmatch(base) else "value" if not base or ROLES["value"].fullmatch(base) else None
         return Column(name, place, role, None, f"{um * 1000:g}nm", um, _quantity(base))
     if "cos" in key or re.search(r"cos\W*theta", _flat(name)):
@@ -85,12 +88,25 @@ def table(names: list[str]) -> list[Column]:
         if column.channel in COLOURS.values() and not ({"R", "G", "B"} <= colours or {"X", "Y", "Z"} <= colours or column.channel == "Y"):
             key, unit = _key_and_unit(column.name)
             columns[place] = Column(column.name, place, role_of(key), unit, quantity=_quantity(key))
+    columns = _pairs_of_letters(columns)
     roles = {column.role for column in columns}
     for place, column in enumerate(columns):
         key, unit = _key_and_unit(column.name)
         if key in ("theta", "polar", "angle", "zenith", "polarangle", "zenithangle") and "theta_r" not in roles:
             columns[place] = Column(column.name, place, "theta_r", unit)
     return columns
+
+
+def _pairs_of_letters(columns: list[Column]) -> list[Column]:
+    """`i, e` are incidence and emergence; beside `theta_v`, `theta_s` is the source's."""
+    keys = [_key_and_unit(column.name)[0] for column in columns]
+    meant = {}
+    if "i" in keys and len({"e", "r", "o", "v", "s"} & set(keys)) == 1:
+        meant = {"i": "theta_i", **dict.fromkeys("erovs", "theta_r")}
+    for polar, role in (("theta", "theta"), ("phi", "phi")):
+        if polar + "s" in keys and polar + "v" in keys and f"{role}_i" not in {column.role for column in columns}:
+            meant[polar + "s"] = f"{role}_i"
+    return [replace(column, role=meant[key], channel=None) if key in meant else column for column, key in zip(columns, keys)]
 
 
 def _flat(name: str) -> str:
@@ -125,8 +141,8 @@ def _wavelength(name: str) -> float | None:
     flat = re.sub(r"[\[\](){}]", " ", _flat(name)).strip()
     if found := re.search(r"(?:^|[^0-9.])(\d+(?:\.\d+)?)[\s_]*(nm|um|µm|microns?)$", flat):
         return float(found[1]) * TO_UM[UNITS[found[2]]]
-    if re.fullmatch(r"\d+(\.\d+)?", flat):
-        number = float(flat)
+    if found := re.fullmatch(r"(?:(?:brdf|bsdf|fr|f|value|wl|lambda|lam|wavelength)[\s_=@:]*)?(\d+(?:\.\d+)?)", flat):
+        number = float(found[1])
         if 100 <= number <= 20000:
             return number / 1000
         if 0.1 <= number <= 30 and "." in flat:

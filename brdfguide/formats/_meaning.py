@@ -9,8 +9,8 @@ import numpy as np
 from .. import conventions
 from ..errors import InputError, choices
 from ..measurement import Finding, Measurement
-from . import _columns
-from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, measurement, nominal_colours, wavelength_in
+from . import _columns, _derived
+from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, degrees, measurement, nominal_colours, wavelength_in
 from ._pivot import pivoted
 from ._sheet import Sheet
 from ._sides import on_its_side
@@ -21,8 +21,9 @@ SETTABLE = ("theta_i", "phi_i", "theta_r", "phi_r", "dphi", "wavelength", "brdf"
 
 def measured(source: Source, table: Sheet, options: Options, *, kind: str = "table", unit: str | None = None) -> Measurement:
     """The measurement in a table of named columns; `unit` is that of angles whose names have none. Raises InputError."""
-    columns, constants = _assigned(table, options, source)
     notes = [Finding("lines-skipped", f"skipped {text}") for text in table.notes[:5]]
+    table = table if options.columns else _derived.plain(table, notes)
+    columns, constants = _assigned(table, options, source)
     roles = {column.role: column for column in columns if column.role in SETTABLE}
     angles, table = _angles(source, table, roles, constants, options, unit, notes)
     values = [column for column in columns if column.role == "value"]
@@ -92,7 +93,7 @@ def _missing(role: str, table: Sheet, source: Source) -> InputError:
 
     near = get_close_matches(role, [name.lower() for name in table.names], n=1, cutoff=0.4)
     hint = f"; is it '{table.names[[n.lower() for n in table.names].index(near[0])]}'?" if near else ""
-    return source.error(f"no column for {role}{hint} Columns found: {', '.join(table.names)[:120]}; say which with --columns {role}=NAME")
+    return source.error(f"no column for {role}{hint} Columns found: {', '.join(table.names)[:120]}; say which with --columns {role}=NAME{' or, if it is one for all, --columns theta_i=30' if role == 'theta_i' else ''}")
 
 
 # --- angles -----------------------------------------------------------------------------------------------
@@ -106,7 +107,7 @@ def _angles(source, table, roles, constants, options, unit, notes):
         raise _missing("theta_i", table, source)
     raw = {role: table.values[:, roles[role].place] for role in ("theta_i", "phi_i", "theta_r", "phi_r", "dphi") if role in roles}
     factor = _factor(source, raw, roles, options, unit, notes)
-    raw = {role: np.degrees(values) if factor == "rad" else values for role, values in raw.items()}
+    raw = {role: degrees(values) if factor == "rad" else values for role, values in raw.items()}
     if "theta_i" not in raw:
         raw["theta_i"] = np.full(len(table.values), constants["theta_i"])
         notes.append(Finding("theta-i-constant", f"theta_i = {constants['theta_i']:g} degrees for the whole file"))
@@ -166,7 +167,7 @@ def _factor(source, raw, roles, options, unit, notes) -> str:
     theta = np.abs(theta[np.isfinite(theta)])
     azimuth = np.concatenate([raw[role] for role in raw if role not in ("theta_i", "theta_r")] or [np.zeros(1)])
     largest, turn = float(theta.max(initial=0.0)), float(np.abs(azimuth[np.isfinite(azimuth)]).max(initial=0.0))
-    if largest > 1.58 or turn > 6.3:
+    if not len(theta) or largest > 1.58 or turn > 6.3:
         return "deg"
     tidy = lambda values: float(np.mean(np.abs(values * 4 - np.round(values * 4)) < 4e-3))  # noqa: E731  multiples of a quarter
     as_degrees, as_radians = tidy(theta), tidy(np.degrees(theta))
@@ -203,7 +204,7 @@ def _channels(source, table, columns, roles, constants, values, angles, notes):
     errors = [column for column in columns if column.role == "stderr"]
     if "wavelength" in roles and len(values) == 1:
         return _pivot(source, table, roles["wavelength"], values[0], errors, angles, notes)
-    brdf = table.values[:, [column.place for column in values]]
+    brdf = _plain(table.values[:, [column.place for column in values]], values, notes)
     channels = [column.channel or "brdf" for column in values]
     by_channel = {column.channel: column for column in errors}
     stderr = None
@@ -222,8 +223,22 @@ def _channels(source, table, columns, roles, constants, values, angles, notes):
     return angles, brdf, stderr, channels, None if um is None else np.full(len(channels), um)
 
 
+def _plain(numbers, columns, notes):
+    """Values given in percent, as numbers; names that only hint at the BRDF are noted."""
+    if vague := [column.name for column in columns if re.fullmatch(r"(reflectance|intensity|val(ue)?s?)\W*", column.name.strip().lower())]:
+        text = f"'{vague[0]}' does not say what it holds: taken as the BRDF [1/sr]"
+        notes.append(Finding("quantity-assumed", text, consequence="examined further on", option="--quantity"))
+    percent = np.array([column.unit == "%" for column in columns])
+    if not np.any(percent):
+        return numbers
+    notes.append(Finding("percent", f"'{columns[int(np.argmax(percent))].name}': given in percent, divided by 100"))
+    return np.where(percent, numbers / 100, numbers)
+
+
 def _absolute(stderr, brdf, column):
-    """Standard errors given in percent or relative, as 1/sr."""
+    """Standard errors given in percent, relative or expanded by a factor k, as 1/sr."""
+    if expanded := re.search(r"\bk\s*=?\s*([123])\b", column.name, re.IGNORECASE):
+        stderr = stderr / float(expanded[1])
     if column.unit == "%":
         return stderr / 100 * np.abs(brdf)
     return stderr * np.abs(brdf) if "rel" in column.name.lower() else stderr
@@ -236,7 +251,7 @@ def _pivot(source, table, column, value, errors, angles, notes):
     bad = np.flatnonzero(~(um > 0))
     if len(bad):
         raise source.error(f"column '{column.name}': found {waves[bad[0]]:g}, wanted a wavelength", int(table.lines[bad[0]]))
-    values = table.values[:, value.place]
+    values = _plain(table.values[:, [value.place]], [value], notes)[:, 0]
     stderr = _absolute(table.values[:, errors[0].place], values, errors[0]) if len(errors) == 1 else None
     angles, brdf, stderr, um, note = pivoted(angles, um, values, stderr)
     notes.extend(note)

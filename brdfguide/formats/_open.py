@@ -29,6 +29,13 @@ def stream(path, name: str):
         raise InputError(f"{name}: cannot be read: {error.strerror or error}") from None
 
 
+def plain_head(head: bytes) -> bytes:
+    """The first bytes as UTF-8 without a byte order mark, for readers that look for words."""
+    if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return head[: len(head) // 2 * 2].decode("utf-16", "replace").encode("utf-8", "replace")
+    return head.removeprefix(b"\xef\xbb\xbf")
+
+
 def whole(stream, head: bytes, limit: int, name: str, swells: bool = False) -> bytearray:
     """`head` and the rest of the stream. Raises InputError when it goes on beyond `limit` bytes.
 

@@ -9,7 +9,7 @@ import numpy as np
 from ._base import Source
 
 COMMENTS = ("#", "%", "//", "!")
-MISSING = {"", "nan", "na", "n/a", "none", "null", "-", "--", "---", "nd", "n.d.", "*"}
+MISSING = {"", "nan", "na", "n/a", "none", "null", "-", "--", "---", "nd", "n.d.", "*", "#n/a", "#value!", "#div/0!", "#num!"}
 # delimiter and decimal mark, likeliest first; None is any white space
 STYLES = (("\t", "."), (";", "."), (",", "."), (None, "."), ("|", "."), ("\t", ","), (";", ","), (None, ","), ("|", ","))
 LOOKED_AT = 40  # data lines that decide the style
@@ -40,12 +40,22 @@ def sheet(source: Source, headerless: tuple[str, ...] | None = None) -> Sheet:
     if not content:
         raise source.error("there is no table in it, only comments and blank lines" if comments else "the file is empty")
     first = next((place for place, (_, text) in enumerate(content) if _looks_like_data(text)), None)
+    first = _below_the_names(content, first)
     if first is None:
         raise source.error(f"no row of numbers found; the first line is '{content[0][1].strip()[:60]}'", content[0][0])
     delimiter, decimal = _style([text for _, text in content[first : first + LOOKED_AT]], content[first - 1][1] if first else None)
     names, notes = _header(source, content[:first], comments, headerless, delimiter, decimal, content[first])
     values, lines = rows_of(source, content[first:], names, delimiter, decimal, notes)
-    return Sheet(names, values, lines, comments, notes)
+    return Sheet(names, values, lines, comments + [text.strip() for _, text in content[:first]], notes)
+
+
+def _below_the_names(content, first: int | None) -> int | None:
+    """One row further where the row found has words over a column of numbers: names such as theta_i, theta_r, 400, 550, 700."""
+    if first is None or first + 1 >= len(content):
+        return first
+    cells = [re.split(r"[,;\t |]+", text.strip().replace('"', "")) for _, text in content[first : first + 2]]
+    words = [place for place, cell in enumerate(cells[0]) if re.match(r"[^\W\d]{2}", cell) and not _is_number(cell)]
+    return first + 1 if len(cells[0]) == len(cells[1]) and any(_is_number(cells[1][place]) for place in words) else first
 
 
 def cells_of(text: str, delimiter: str | None) -> list[str]:

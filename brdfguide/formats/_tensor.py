@@ -42,7 +42,7 @@ def fields(source: Source) -> dict[str, np.ndarray]:
         for each in shape:
             values *= each
         end = offset + values * np.dtype(TYPES[kind]).itemsize
-        if end > size:
+        if end > size or max(shape, default=0) > size:
             raise source.error(f"field '{name[:40]}' of shape {shape} would end at byte {end}; the file has {size}: truncated or damaged")
         found[name] = np.frombuffer(data, TYPES[kind], count=values, offset=offset).reshape(shape)
     return found

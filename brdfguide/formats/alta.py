@@ -1,4 +1,4 @@
-"""ALTA text: `#KEY value` lines, then rows of coordinates, values and perhaps their intervals.
+"""ALTA text: `#KEY value` lines, then rows of coordinates, values and perhaps their intervals; or the same as doubles.
 
 #DIM gives the numbers of coordinates and of values, #PARAM_IN the coordinates by name (radians), #PARAM_OUT the quantity, #VS the
 extra columns of an interval for each value. The mirror direction is at an azimuth difference of 180 degrees.
@@ -14,7 +14,7 @@ from .. import conventions
 from ..errors import choices
 from ..geometry import Geometry
 from ..measurement import Finding, Measurement
-from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, from_comments, measurement, nominal_colours
+from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, degrees, from_comments, measurement, nominal_colours
 
 
 def recognises(head: bytes) -> bool:
@@ -23,7 +23,9 @@ def recognises(head: bytes) -> bool:
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError for a parametrisation that is not known or does not tell the directions, and for ragged rows."""
-    header, table, lines = _content(source)
+    head, stream, body = bytes(source.data).partition(b"#BEGIN_STREAM")
+    source = Source(source.name, head)
+    header, table, lines = _binary(source, body) if stream else _content(source)
     name = header.get("PARAM_IN", "").upper()
     if name not in DIRECTIONS:
         raise choices(f"ALTA parametrisation in {source.name}", name, DIRECTIONS)
@@ -35,9 +37,9 @@ def read(source: Source, options: Options) -> Measurement:
     quantity = header.get("PARAM_OUT", "INV_STERADIAN").upper()
     if quantity not in QUANTITIES:
         raise choices(f"ALTA quantity in {source.name}", quantity, QUANTITIES)
-    theta_i, phi_i, theta_r, phi_r = (np.degrees(a) for a in directions(*coordinates))
-    for each, degrees in (("theta_i", theta_i), ("theta_r", theta_r)):
-        check_zenith(source, each, degrees, lines)
+    theta_i, phi_i, theta_r, phi_r = (degrees(a) for a in directions(*coordinates))
+    for each, angles in (("theta_i", theta_i), ("theta_r", theta_r)):
+        check_zenith(source, each, angles, lines)
     channels = {3: ("X", "Y", "Z") if quantity == "XYZ_COLOR" else ("R", "G", "B")}.get(outputs, [f"value{k + 1}" for k in range(outputs)])
     channels = ("brdf",) if outputs == 1 else channels
     um, notes = from_comments("\n".join(line for line in source.lines if line.lstrip().startswith("#")))
@@ -72,9 +74,24 @@ def _content(source: Source):
     return header, table, lines
 
 
+def _binary(source: Source, body: bytes):
+    """A body of doubles behind a text header, as ALTA writes it too."""
+    header = {match[1]: match[2].strip() for text in source.lines if (match := re.match(r"#\s*([A-Z_]+)\s*(.*)", text.strip()))}
+    counts = header.get("DIM", "").split()
+    extra = {"1": 2, "2": 2}.get(header.get("VS", "0"), 0)  # an interval is always stored by both its ends
+    width = int(counts[0]) + int(counts[1]) * (1 + extra) if len(counts) == 2 and all(word.isdecimal() for word in counts) else 0
+    rows = int(header["SAMPLE_COUNT"]) if header.get("SAMPLE_COUNT", "").isdecimal() else 0
+    body = body.removeprefix(b"\r").removeprefix(b"\n")
+    if not 0 < rows * width * 8 <= len(body):
+        raise source.error(f"truncated: {rows} samples of {width} doubles promised; {len(body)} bytes follow #BEGIN_STREAM")
+    kind = ">f8" if header.get("ENDIAN", "little").lower() == "big" else "<f8"
+    table = np.frombuffer(body, kind, rows * width).reshape(rows, width).astype(float)
+    return header, table, np.full(rows, len(source.lines))
+
+
 def _dimensions(source: Source, header, width: int, wanted: int):
     words = header.get("DIM", "").split()
-    if len(words) != 2 or not all(word.isdigit() for word in words):
+    if len(words) != 2 or not all(word.isdecimal() for word in words):
         raise source.error(f"#DIM '{header.get('DIM', '')}': wanted two counts, such as #DIM 3 1")
     inputs, outputs = int(words[0]), int(words[1])
     if inputs != wanted:
@@ -101,6 +118,23 @@ def _half_difference(theta_h, phi_h, theta_d, phi_d):
     return [np.where(below, np.pi / 2, each) for each in (theta[0],)] + [found[1], np.where(below, np.pi / 2, theta[1]), found[3]]
 
 
+def _retro(theta_l, x, y):
+    """About the light: distance times cosine and sine of the azimuth, which is 0 toward the normal."""
+    apart, turn = np.hypot(x, y), np.arctan2(y, x)
+    toward, aside = np.sin(apart) * np.cos(turn), np.sin(apart) * np.sin(turn)
+    along, up = np.cos(apart) * np.sin(theta_l) - toward * np.cos(theta_l), np.cos(apart) * np.cos(theta_l) + toward * np.sin(theta_l)
+    return theta_l, 0 * x, np.arctan2(np.hypot(along, aside), up), np.arctan2(aside, along)
+
+
+def _back(theta_l, x, y):
+    """Schlick's back vector, halfway between the view and the mirror direction."""
+    theta, turn = np.hypot(x, y), np.arctan2(y, x)
+    back = np.stack([np.sin(theta) * np.cos(turn), np.sin(theta) * np.sin(turn), np.cos(theta)])
+    mirror = np.stack([-np.sin(theta_l), 0 * theta_l, np.cos(theta_l)])
+    view = 2 * np.sum(back * mirror, axis=0) * back - mirror
+    return theta_l, 0 * x, np.arctan2(np.hypot(view[0], view[1]), view[2]), np.arctan2(view[1], view[0])
+
+
 def _cartesian(rx, ry, rz, ix, iy, iz):
     geom = Geometry.from_vectors(np.stack([ix, iy, iz], -1), np.stack([rx, ry, rz], -1))
     return [np.radians(a) for a in (geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg)]
@@ -113,6 +147,8 @@ DIRECTIONS = {
     "SPHERICAL_TL_PL_TV_PV": (4, lambda theta_l, phi_l, theta_v, phi_v: (theta_l, phi_l, theta_v, phi_v)),
     "RUSIN_TH_TD_PD": (3, lambda theta_h, theta_d, phi_d: _half_difference(theta_h, 0 * theta_h, theta_d, phi_d)),
     "RUSIN_TH_PH_TD_PD": (4, _half_difference),
+    "RETRO_TL_TVL_PROJ_DPHI": (3, _retro),
+    "SCHLICK_TL_TK_PROJ_DPHI": (3, _back),
     "CARTESIAN": (6, _cartesian),
 }
 QUANTITIES = {"INV_STERADIAN": "brdf", "INV_STERADIAN_COSINE_FACTOR": "brdf-cos", "RGB_COLOR": "brdf", "XYZ_COLOR": "brdf"}

@@ -4,44 +4,76 @@ Angles are in radians unless the header or a name says degrees; values are the B
 VARS says so. The mirror direction is phi_s - phi_i = 180 degrees.
 
 Source: ASTM E1392, "Angle resolved optical scatter measurements on specular or diffuse surfaces", as the public Cornell files
-follow it; no measured file was at hand, and the tests write their own.
+follow it, and what the programs that write and read such files do; no measured file was at hand, and the tests write their own.
 """
 
 import re
 
+import numpy as np
+
 from ..measurement import Finding, Measurement
 from . import _meaning
 from ._base import Format, Options, Source
-from ._sheet import Sheet, rows_of
+from ._sheet import COMMENTS, Sheet, cells_of, rows_of
 
 
 def recognises(head: bytes) -> bool:
-    return re.search(rb"^\s*VARS\s+\S*theta", head, re.MULTILINE | re.IGNORECASE) is not None
+    return re.search(rb"^\s*VARS\s*[:=]?\s*\S*theta", head, re.MULTILINE | re.IGNORECASE) is not None
 
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError where the rows do not follow VARS, or are fewer than NUM_POINTS promises."""
     header, names, content = {}, None, []
     for number, text in enumerate(source.lines, 1):
-        word, _, rest = text.strip().partition(" ")
+        word, rest = (re.split(r"[\s:=]+", text.strip(), maxsplit=1) + [""])[:2]
+        if text.lstrip().startswith(COMMENTS):
+            continue
         if names is not None:
             if text.strip():
                 content.append((number, text))
         elif word.upper() == "VARS":
-            names = [name.strip() for name in rest.replace("\t", ",").split(",") if name.strip()]
+            names = [name.strip() for name in re.split(r"[,;\t]" if re.search(r"[,;\t]", rest) else r"\s+", rest) if name.strip()]
         elif word:
-            header[word.upper().rstrip(":=")] = rest.strip()
+            header[word.upper()] = rest.strip()
     if not names or not content:
         raise source.error("no rows after VARS")
-    values, lines = rows_of(source, content, names, ",", ".", [])
+    delimiter = next((mark for mark in (",", ";", "\t") if mark in content[0][1]), None)
+    names, notes = _with_phi_s(names, len(cells_of(content[0][1], delimiter)))
+    values, lines = rows_of(source, content, names, delimiter, ".", [])
     promised = header.get("NUM_POINTS", "")
-    if promised.isdigit() and int(promised) > len(values):
+    if promised.isdecimal() and int(promised) > len(values):
         raise source.error(f"truncated: NUM_POINTS promises {promised} rows; found {len(values)}")
-    unit = "deg" if any("deg" in value.lower() for key, value in header.items() if "ANG" in key or "UNIT" in key) else "rad"
-    comments = [f"{key.lower()}: {value}" for key, value in header.items()]
+    unit, why = _unit(header, names, values)
+    comments = [f"{key.lower()}: {value}{_wave_unit(key, value)}" for key, value in header.items()]
     result = _meaning.measured(source, Sheet(names, values, lines, comments, []), options, kind="ASTM E1392 text", unit=unit)
-    said = "as its header says" if unit == "deg" else "since its header does not say degrees"
-    return result.noting(Finding("angle-unit", f"angles in {unit}, {said}", option="--unit"))
+    return result.noting(*notes, Finding("angle-unit", f"angles in {unit}, {why}", option="--unit"))
+
+
+def _with_phi_s(names, width: int):
+    """VARS that forget phi_s although the rows hold it, as some programs write them."""
+    lower = [name.lower() for name in names]
+    if width != len(names) + 1 or "theta_s" not in lower or "phi_s" in lower or "phi_i" not in lower:
+        return names, []
+    place = lower.index("theta_s") + 1
+    note = Finding("column-unnamed", f"VARS names {len(names)} columns and the rows hold {width}: the one after theta_s is taken as phi_s", option="--columns")
+    return [*names[:place], "phi_s", *names[place:]], [note]
+
+
+def _unit(header, names, values):
+    """`deg` or `rad`, and why: what the header says, else radians, unless a zenith is far too large for one."""
+    if any("deg" in value.lower() for key, value in header.items() if "ANG" in key or "UNIT" in key):
+        return "deg", "as its header says"
+    zeniths = values[:, [place for place, name in enumerate(names) if name.lower().startswith("theta")]]
+    if np.nanmax(np.abs(zeniths), initial=0.0) > 1.6:
+        return "deg", "since a zenith angle beyond pi/2 is none in radians"
+    return "rad", "since its header does not say degrees"
+
+
+def _wave_unit(key: str, value: str) -> str:
+    """A bare number under WAVELENGTH is in micrometres, as the standard has it, or in nanometres."""
+    if "WAVELENGTH" not in key or not re.fullmatch(r"\d+(\.\d+)?", value):
+        return ""
+    return " um" if float(value) < 50 else " nm"
 
 
 FORMAT = Format("astm", (".astm",), recognises, read, own_side=False)

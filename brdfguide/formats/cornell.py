@@ -9,7 +9,7 @@ import re
 import numpy as np
 
 from ..measurement import Measurement
-from ._base import Format, Options, Source, check_zenith, measurement
+from ._base import Format, Options, Source, check_zenith, degrees, measurement
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 CHANNELS = range(1, 4096)
@@ -49,19 +49,13 @@ def read(source: Source, options: Options) -> Measurement:
     if len(records) % width:
         raise source.error(f"truncated: the last record has {len(records) % width} of {width} numbers (4 angles and {count} values)")
     records = records.reshape(-1, width)
-    degrees = np.degrees(records[:, :4])
-    if not np.all(np.isfinite(degrees)):
-        raise source.error(f"record {int(np.flatnonzero(~np.all(np.isfinite(degrees), axis=1))[0]) + 1}: an angle is not finite")
+    angles = degrees(records[:, :4])
+    if not np.all(np.isfinite(angles)):
+        raise source.error(f"record {int(np.flatnonzero(~np.all(np.isfinite(angles), axis=1))[0]) + 1}: an angle is not finite")
     for name, column in (("theta_i", 0), ("theta_r", 2)):
-        check_zenith(source, name, degrees[:, column])
+        check_zenith(source, name, angles[:, column])
     channels = [f"{each * 1000:g}nm" for each in um]
-    return measurement(source, "Cornell .brdf", *_rounded(degrees), records[:, 4:], channels=channels, wavelength=um)
-
-
-def _rounded(degrees):
-    """Angles back from radians with six decimals: 0.872665 was 50 degrees, not 50.00002."""
-    nearest = np.round(degrees, 2)
-    return np.where(np.abs(degrees - nearest) < 6e-5, nearest, degrees).T
+    return measurement(source, "Cornell .brdf", *angles.T, records[:, 4:], channels=channels, wavelength=um)
 
 
 def _not_a_number(source: Source):

@@ -16,16 +16,18 @@ from ._base import Format, Options, Source, check_zenith, from_comments, measure
 
 
 def recognises(head: bytes) -> bool:
-    return re.match(rb"(\s*(#[^\n]*)?\r?\n)*\s*type\s+bsdf_data\b", head, re.IGNORECASE) is not None
+    return re.search(rb"^[ \t]*type[ \t=]+bsdf_data\b", head, re.IGNORECASE | re.MULTILINE) is not None
 
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError for an unknown `format`, a value before any direction, and lines of another length."""
     angles_are, values_are, scale = "deg", "value", 1.0
     specular, rows, lines = None, [], []
+    begun = False
     for number, text in enumerate(source.lines, 1):
-        words = re.split(r"[#!]", text)[0].replace(",", " ").split()
-        if not words or words[0].lower() == "type":
+        words = re.split(r"[#!]|//", text)[0].replace(",", " ").split()
+        begun = begun or bool(words) and words[0].lower() == "type"
+        if not begun or not words or words[0].lower() == "type":
             continue
         if words[0].lower() == "format":
             angles_are, values_are, scale = _format(source, words[1:], number)
@@ -56,7 +58,7 @@ def read(source: Source, options: Options) -> Measurement:
 
 
 def _format(source: Source, words, line: int):
-    said = dict(word.lower().partition("=")[::2] for word in words)
+    said = dict(re.findall(r"(\w+)\s*=\s*(\S+)", " ".join(words).lower()))
     angles, values = said.get("angles", "deg"), said.get("bsdf", "value")
     if angles not in ("deg", "sin") or values not in ("value", "log"):
         raise source.error(f"'format {' '.join(words)[:60]}': wanted angles=deg or sin, and bsdf=value or log", line)

@@ -34,9 +34,10 @@ def read(source: Source, options: Options) -> Measurement:
         word, line = words[at]
         at += 1
         if word in ("ScatterAzimuth", "ScatterRadial"):
-            count = int(_numbers(source, words, at, 1, word)[0])
-            if not 0 < count <= MOST_ANGLES:
-                raise source.error(f"{word} promises {count} angles", line)
+            promised = _numbers(source, words, at, 1, word)[0]
+            if not 0 < promised <= MOST_ANGLES:
+                raise source.error(f"{word} promises {promised:g} angles", line)
+            count = int(promised)
             lists[word] = _numbers(source, words, at + 1, count, word)
             at += 1 + count
     if len(lists) < 2 or at == len(words):

@@ -11,7 +11,7 @@ import re
 import numpy as np
 
 from ..measurement import Measurement
-from ._base import Format, Options, Source, check_zenith, measurement
+from ._base import Format, Options, Source, check_zenith, degrees, measurement
 from ._pivot import pivoted
 from ._sides import on_its_side
 
@@ -19,7 +19,8 @@ COLUMNS = ("wavelength", "theta_i", "theta_r", "phi", "brdf")
 
 
 def recognises(head: bytes) -> bool:
-    return head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") and re.search(rb'"(lookupTable|brdf|openMaterial3dVersion)"', head) is not None
+    """Any JSON object: its description may be longer than what is looked at, and no other reader takes JSON."""
+    return re.match(rb'\s*\{\s*"', head) is not None
 
 
 def read(source: Source, options: Options) -> Measurement:
@@ -41,7 +42,7 @@ def read(source: Source, options: Options) -> Measurement:
         raise source.error(f"lookupTable: wavelength {metres[metres <= 0][0]:g} m; wanted a positive one")
     for name, column in (("theta_i", theta_i), ("theta_r", theta_r)):
         check_zenith(source, name, np.degrees(column))
-    angles = [_tidy(theta_i), 0.0 * theta_i, _tidy(theta_r), _tidy(phi)]
+    angles = [degrees(theta_i), 0.0 * theta_i, degrees(theta_r), degrees(phi)]
     angles, spread, _, um, notes = pivoted(angles, metres * 1e6, values)
     channels = [f"{each * 1000:g}nm" for each in um]
     result = measurement(source, "OpenMATERIAL JSON", *angles, spread, channels=channels, wavelength=um, findings=notes)
@@ -55,13 +56,6 @@ def _row(source: Source, place: int, row):
         if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float)) or abs(value) > 1e300):
             raise source.error(f"lookupTable row {place}, {name}: found {str(value)[:40]}, wanted a number or null")
     return [np.nan if value is None else float(value) for value in row]
-
-
-def _tidy(radians):
-    """Degrees; those that were round before they became radians with six digits are round again."""
-    degrees = np.degrees(radians)
-    nearest = np.round(degrees, 2)
-    return np.where(np.abs(degrees - nearest) < 6e-5, nearest, degrees)
 
 
 FORMAT = Format("openmaterial", (".json",), recognises, read, own_side=False)

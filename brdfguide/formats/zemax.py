@@ -11,23 +11,26 @@ import re
 
 import numpy as np
 
+from ..errors import InputError
 from ..measurement import Finding, Measurement
 from ._base import XYZ_UM, Format, Options, Source, averaged, check_zenith, from_comments, measurement, nominal_colours
 
 LISTS = ("SampleRotation", "AngleOfIncidence", "ScatterAzimuth", "ScatterRadial")
+KEYWORDS = {word.lower(): word for word in (*LISTS, "Source", "Symmetry", "SpectralContent", "ScatterType", "DataBegin", "DataEnd", "TIS")}
 MOST_ANGLES = 100_000
 
 
 def recognises(head: bytes) -> bool:
     text = head.decode("latin-1")
-    return all(re.search(rf"^\s*{key}\b", text, re.MULTILINE) for key in LISTS[1:3]) and not re.search(r"^\s*AOI\b", text, re.MULTILINE)
+    has = lambda key: re.search(rf"^\s*{key}\b", text, re.MULTILINE | re.IGNORECASE)  # noqa: E731
+    return all(has(key) for key in LISTS[1:3]) and not has("AOI")
 
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError for transmission and for counts that do not agree. Several rotations give their mean."""
     words = _Words(source)
     header, lists = {}, {}
-    while (word := words.next("a keyword")) != "DataBegin":
+    while (word := words.keyword("a keyword")) != "DataBegin":
         if word in LISTS:
             count = int(words.number(f"the count of {word}"))
             if not 0 < count <= MOST_ANGLES:
@@ -84,18 +87,18 @@ def _directions(lists, shape):
 def _plane(source: Source, words: "_Words", shape, first: bool):
     """One spectral content: values (rotations, incidences, azimuths, radials) and the stated TIS."""
     if not first:
-        while words.next("DataBegin of the next colour") != "DataBegin":
+        while words.keyword("DataBegin of the next colour") != "DataBegin":
             pass
     if np.prod(shape, dtype=float) > len(source.data):
         raise source.error(f"its header promises {' x '.join(map(str, shape))} values, more than the file's {len(source.data)} bytes can hold")
     values, tis = np.empty((shape[0] * shape[1], shape[2] * shape[3])), []
     for block in range(len(values)):
-        word = words.next("TIS")
+        word = words.keyword("TIS")
         if word != "TIS":
             raise source.error(f"found '{word[:40]}', wanted TIS of table {block + 1} of {len(values)}", words.line)
         tis.append(words.number("the value of TIS"))
         values[block] = words.numbers(values.shape[1], f"value of table {block + 1}")
-    word = words.next("DataEnd")
+    word = words.keyword("DataEnd", at_end="DataEnd")
     if word != "DataEnd":
         raise source.error(f"found '{word[:40]}' after the last table, wanted DataEnd", words.line)
     return values.reshape(shape), tis
@@ -126,7 +129,10 @@ class _Words:
 
     def __init__(self, source: Source):
         self.source, self.line = source, 0
-        self.rows = iter(enumerate(source.lines, 1))
+        body = [text.partition("#")[0] for text in source.lines]
+        # a decimal comma: between digits everywhere, and no decimal point
+        self.comma = any(re.search(r"\d,\d", text) for text in body) and not any(re.search(r"\d\.\d|\d,\s", text) for text in body)
+        self.rows = iter(enumerate(body, 1))
         self.left: list[str] = []
 
     def next(self, wanted: str) -> str:
@@ -135,8 +141,18 @@ class _Words:
                 self.line, text = next(self.rows)
             except StopIteration:
                 raise self.source.error(f"truncated: it ends where {wanted} was wanted") from None
-            self.left = text.partition("#")[0].replace(",", " ").split()[::-1]
+            self.left = text.replace(",", "." if self.comma else " ").split()[::-1]
         return self.left.pop()
+
+    def keyword(self, wanted: str, at_end: str | None = None) -> str:
+        """The next word, spelt as we spell keywords whatever its case and whether a colon follows; `at_end` where the file ends."""
+        try:
+            word = self.next(wanted).rstrip(":=")
+        except InputError:
+            if at_end is None:
+                raise
+            return at_end
+        return KEYWORDS.get(word.lower(), word)
 
     def number(self, wanted: str) -> float:
         word = self.next(wanted)

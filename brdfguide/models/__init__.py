@@ -25,7 +25,7 @@ def get(expression: str) -> Sum:
     written: list[str] = []
     for word in expression.split("+"):
         name, _, count = word.strip().partition(":")
-        if count and not (count.isdigit() and 1 <= int(count) <= MOST_LOBES):
+        if count and not (count.isdecimal() and 1 <= int(count) <= MOST_LOBES):
             raise InputError(f"'{word}': lobes are counted from 1 to {MOST_LOBES}")
         model = term(name)
         models += [model] * int(count or 1)

@@ -80,6 +80,12 @@ def alta(kind="ISOTROPIC_TV_TL_DPHI", out="INV_STERADIAN", dimensions="3 1", row
     return f"#DIM {dimensions}\n#VS 0\n#PARAM_IN {kind}\n#PARAM_OUT {out}\n{lines}\n"
 
 
+def alta_binary(order="little") -> bytes:
+    head = alta().split("0.5")[0] + f"#FORMAT binary\n#PRECISION ieee754-double\n#SAMPLE_COUNT 2\n#ENDIAN {order}\n#BEGIN_STREAM\n"
+    rows = np.array([(0.5, 0.4, 3.1, 0.2), (0.6, 0.7, 0.0, 0.3)], "<f8" if order == "little" else ">f8")
+    return head.encode() + rows.tobytes() + b"\n#END_STREAM\n"
+
+
 def astm(names="theta_i,phi_i,theta_s,phi_s,R,G,B", rows=((0.5, 1.0, 0.4, 4.1415926, 0.1, 0.2, 0.3), (1.0, 1.0, 0.9, -2.1, 0.4, 0.5, 0.6))) -> str:
     lines = "\n".join(",".join(f"{cell:.9g}" for cell in row) for row in rows)
     return f"LAB_NAME made up\nSAMPLE_NAME \"paint\"\nNUM_POINTS {len(rows)}\nVARS {names}\n{lines}\n"
@@ -100,6 +106,7 @@ def every() -> dict[str, bytes]:
     texts = {"cornell": cornell(), "zemax": zemax(), "fred": fred(), "lighttools": lighttools(), "lighttools-bsdf": lighttools_bsdf(),
              "alta": alta(), "astm": astm(), "openmaterial": openmaterial(), "table": table()}  # fmt: skip
     files = {name: text.encode() for name, text in texts.items()}
+    files["alta-binary"] = alta_binary()
     files["rgl"] = tensor_file(**rgl_fields(1))
     files["rgl-spectral"] = tensor_file(**rgl_fields(2, spectral=True))
     files["table.gz"], files["table.xz"] = gzip.compress(files["table"]), lzma.compress(files["table"])

@@ -12,7 +12,7 @@ from . import containers
 
 def read(tmp_path, text, name="run.dat", **options):
     path = tmp_path / name
-    path.write_text(text)
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
     return formats.read(path, **options)
 
 
@@ -136,18 +136,46 @@ def test_alta_parametrisations_give_the_same_directions(tmp_path):
     spun = np.array([np.cos(phi_h) * light[0] + np.sin(phi_h) * light[1], -np.sin(phi_h) * light[0] + np.cos(phi_h) * light[1], light[2]])
     x, z = np.cos(theta_h) * spun[0] - np.sin(theta_h) * spun[2], np.sin(theta_h) * spun[0] + np.cos(theta_h) * spun[2]
     theta_d, phi_d = np.arccos(z), np.arctan2(spun[1], x)
+    apart = np.arccos(light @ view)
+    toward_normal = np.array([-np.cos(theta_i), 0, np.sin(theta_i)])
+    turn = np.arctan2(view[1], view @ toward_normal)
+    back = view - light * [1, 1, -1]
+    back /= np.linalg.norm(back)
+    theta_k, phi_k = np.arccos(back[2]), np.arctan2(back[1], back[0])
     forms = {
         "ISOTROPIC_TV_TL_DPHI": (3, (theta_r, theta_i, dphi)),
         "ISOTROPIC_TL_TV_PROJ_DPHI": (3, (theta_i, theta_r * np.cos(dphi), theta_r * np.sin(dphi))),
         "SPHERICAL_TL_PL_TV_PV": (4, (theta_i, 0.3, theta_r, dphi + 0.3)),
         "RUSIN_TH_TD_PD": (3, (theta_h, theta_d, phi_d)),
         "RUSIN_TH_PH_TD_PD": (4, (theta_h, phi_h, theta_d, phi_d)),
+        "RETRO_TL_TVL_PROJ_DPHI": (3, (theta_i, apart * np.cos(turn), apart * np.sin(turn))),
+        "SCHLICK_TL_TK_PROJ_DPHI": (3, (theta_i, theta_k * np.cos(phi_k), theta_k * np.sin(phi_k))),
         "CARTESIAN": (6, (*view, *light)),
     }
     for name, (count, cells) in forms.items():
         measurement = read(tmp_path, containers.alta(name, dimensions=f"{count} 1", rows=((*cells, 0.25),)))
         np.testing.assert_allclose(measurement.geom.v2[0, 0], 2 * (1 + light @ view), rtol=1e-8, err_msg=name)
         np.testing.assert_allclose(measurement.geom.tan2_h[0, 0], np.tan(theta_h) ** 2, rtol=1e-8, err_msg=name)
+
+
+@pytest.mark.parametrize("order", ["little", "big"])
+def test_alta_binary_bodies_hold_what_text_holds(tmp_path, order):
+    text = read(tmp_path, containers.alta())
+    content = containers.alta_binary(order)
+    binary = read(tmp_path, content)
+    np.testing.assert_array_equal(binary.brdf, text.brdf)
+    np.testing.assert_allclose(binary.geom.theta_r_deg, text.geom.theta_r_deg)
+    with pytest.raises(InputError, match="truncated: 2 samples of 4 doubles promised"):
+        read(tmp_path, content[: content.index(b"#END_STREAM") - 9])
+
+
+@pytest.mark.parametrize("content, sentence", [
+    (containers.alta_binary().replace(b"COUNT 2", "COUNT ²".encode()), "truncated: 0 samples"),
+    (containers.lighttools_bsdf().replace("ScatterRadial 3", "ScatterRadial 1e999").encode(), "ScatterRadial promises inf angles"),
+])  # fmt: skip
+def test_counts_that_no_file_can_hold_are_refused(tmp_path, content, sentence):
+    with pytest.raises(InputError, match=sentence):
+        read(tmp_path, content)
 
 
 def test_alta_quantities_and_refusals(tmp_path):
@@ -171,6 +199,79 @@ def test_astm_angles_are_radians_unless_the_header_says_degrees(tmp_path):
     np.testing.assert_allclose(weighted.brdf[:, 0] * np.cos(0.4), [0.1, 0.2])
     with pytest.raises(InputError, match="truncated: NUM_POINTS promises 9 rows; found 2"):
         read(tmp_path, containers.astm().replace("NUM_POINTS 2", "NUM_POINTS 9"))
+
+
+ASTM = containers.astm("theta_i,phi_i,theta_s,phi_s,R,G,B")
+SAME_AS_ASTM = {
+    "a byte order mark": "\ufeff" + ASTM,
+    "old Windows lines": ASTM.replace("\n", "\r\n"),
+    "a colon after the keys": ASTM.replace("VARS ", "VARS: ").replace("NUM_POINTS ", "NUM_POINTS: "),
+    "a tab after VARS": ASTM.replace("VARS ", "VARS\t"),
+    "blanks after the commas": ASTM.replace(",", ", "),
+    "blanks instead of commas": ASTM.replace(",", " "),
+    "comments": "# made up\n" + ASTM.replace("\n0.5", "\n# rows\n\n0.5"),
+    "Fortran's exponents": ASTM.replace(",0.1,", ",1.0D-01,"),
+    "VARS that forget phi_s": ASTM.replace("theta_s,phi_s", "theta_s"),
+    "names in words": ASTM.replace("R,G,B", "Red BRDF,Green BRDF,Blue BRDF"),
+}
+
+
+@pytest.mark.parametrize("name", SAME_AS_ASTM)
+def test_astm_text_with(tmp_path, name):
+    plain, same = read(tmp_path, ASTM), read(tmp_path, SAME_AS_ASTM[name])
+    assert same.format == "ASTM E1392 text" and same.channels == plain.channels
+    np.testing.assert_allclose(same.brdf, plain.brdf)
+    np.testing.assert_allclose(same.geom.tan2_h, plain.geom.tan2_h)
+
+
+def test_astm_cells_may_be_empty_where_colours_share_no_direction(tmp_path):
+    measurement = read(tmp_path, containers.astm().replace(",0.2,0.3", ",,0.3").replace(",0.4,0.5", ",,0.5"))
+    np.testing.assert_array_equal(np.isfinite(measurement.brdf), [[True, False, True], [False, True, True]])
+
+
+def test_astm_in_degrees_without_a_word_about_it(tmp_path):
+    rows = ((30.0, 0.0, 40.0, 180.0, 0.1, 0.1, 0.1), (60.0, 0.0, 50.0, 170.0, 0.2, 0.2, 0.2))
+    measurement = read(tmp_path, containers.astm(rows=rows).replace("NUM_POINTS", "WAVELENGTH 0.6328\nNUM_POINTS").replace("R,G,B", "a,brdf,b"))
+    np.testing.assert_allclose(measurement.geom.theta_r_deg[:, 0], [40, 50])
+    assert measurement.geom.wavelength[0] == pytest.approx(0.6328)
+
+
+FRED = containers.fred()
+SAME_AS_FRED = {
+    "tabs": FRED.replace(" 0 ", "\t0\t"), "capitals": FRED.upper(), "a byte order mark": "\ufeff" + FRED, "old Windows lines": FRED.replace("\n", "\r\n"),
+    "blanks about the signs": FRED.replace("=", " = "), "commas": FRED.replace("deg bsdf", "deg, bsdf").replace("20 0 0.5", "20, 0, 0.5"),
+    "a title and comments": "'a title\n! made up\n" + FRED.replace("50 0\n", "// next\n50 0 ! again\n"), "Fortran's exponents": FRED.replace("0.05", "5.0D-02"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SAME_AS_FRED)
+def test_fred_text_with(tmp_path, name):
+    plain, same = read(tmp_path, FRED), read(tmp_path, SAME_AS_FRED[name])
+    assert same.format == "FRED text"
+    np.testing.assert_allclose(same.brdf, plain.brdf)
+    np.testing.assert_allclose(same.geom.tan2_h, plain.geom.tan2_h)
+
+
+ZEMAX = containers.zemax()
+SAME_AS_ZEMAX = {
+    "a byte order mark and old Windows lines": "\ufeff" + ZEMAX.replace("\n", "\r\n"), "small letters": ZEMAX.replace("Data", "data").replace("TIS", "tis"),
+    "colons": ZEMAX.replace("TIS ", "TIS: "), "decimal commas": ZEMAX.replace(".", ","), "no DataEnd": ZEMAX.replace("DataEnd\n", ""),
+    "no rotation": ZEMAX.replace("SampleRotation 1\n0\n", ""), "numbers between commas": ZEMAX.replace("0.3 0.2 0.1", "0.3, 0.2, 0.1"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SAME_AS_ZEMAX)
+def test_zemax_text_with(tmp_path, name):
+    plain, same = read(tmp_path, ZEMAX), read(tmp_path, SAME_AS_ZEMAX[name])
+    np.testing.assert_allclose(same.brdf, plain.brdf)
+    np.testing.assert_allclose(same.geom.tan2_h, plain.geom.tan2_h)
+
+
+def test_openmaterial_with_a_description_longer_than_the_readers_look(tmp_path):
+    document = containers.openmaterial().replace('"made up"', '"' + 70_000 * "long " + '"')
+    np.testing.assert_array_equal(read(tmp_path, document).brdf, read(tmp_path, containers.openmaterial()).brdf)
+    with pytest.raises(InputError, match="no rows under brdf.lookupTable"):
+        read(tmp_path, '{"asset": 1}')
 
 
 def test_openmaterial_rows_become_channels(tmp_path):

@@ -187,6 +187,7 @@ DAMAGE = {
     "shapes that differ": (lambda f: tensor_file(**{**f, "rgb": f["rgb"][:, :3]}), "'rgb' has shape .* does not go with"),
     "angles that fall": (lambda f: tensor_file(**{**f, "theta_i": f["theta_i"][::-1].copy()}), "the stored incidences do not rise"),
     "absurd counts": (lambda f: tensor_file(**f)[:14] + b"\xff\xff\xff\x7f" + tensor_file(**f)[18:], "promises 2147483647 fields"),
+    "an absurd shape beside an empty one": (lambda f: tensor_file(**{**f, "extra": np.zeros((0, 2**21), "<f4")}).replace((2**21).to_bytes(8, "little"), (2**62).to_bytes(8, "little")), "would end at byte"),
     "an absurd shape": (lambda f: tensor_file(**f).replace((8).to_bytes(8, "little"), (10**12).to_bytes(8, "little")), "would end at byte"),
 }
 

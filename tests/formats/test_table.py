@@ -59,12 +59,26 @@ GOOD = {
     "greek": plain(header=("θ_i", "θ_r", "f_r")),
     "abbreviations": plain(header=("AOI", "theta_s", "BRDF (sr^-1)")),
     "hyphens": plain(header=("theta-in", "theta-out", "brdf_sr-1")),
+    "Fortran's exponents": plain(form="{:E}").replace("E-", "D-").replace("E+", "D+"),
+    "planetary letters": plain(header=("i", "e", "brdf")),
+    "source and viewer": plain(header=("theta_s", "theta_v", "brdf")),
+    "a reference direction": plain(header=("theta_inc", "theta_ref", "brdf")),
+    "naught for the incidence": plain(header=("theta_0", "theta", "brdf")),
+    "a spreadsheet's separator line": "sep=;\n" + plain(";"),
+    "sixteen bits, the other way round": b"\xfe\xff" + plain().encode("utf-16-be"),
+    "a spreadsheet's missing values": plain() + "60,70,#N/A\n",
+    "angles from the mirror direction": "theta_i,angle from specular,brdf\n" + "".join(f"{i:g},{r - i:g},{f:g}\n" for i, r, f in ROWS),
+    "differences of sines": "theta_i,beta-beta0,brdf\n"
+    + "".join(f"{i:g},{np.sin(np.radians(r)) - np.sin(np.radians(i)):.9g},{f:g}\n" for i, r, f in ROWS),
+    "decimal logarithms": "theta_i,theta_r,log10(BRDF)\n" + "".join(f"{i:g},{r:g},{np.log10(f):.12g}\n" for i, r, f in ROWS),
 }
 
 
 @pytest.mark.parametrize("name", GOOD)
 def test_reads_a_table_with(tmp_path, name):
-    check(read(tmp_path, GOOD[name]))
+    measurement = read(tmp_path, GOOD[name])
+    check(measurement[: len(ROWS)])
+    assert not np.any(measurement.usable[len(ROWS) :])
 
 
 def test_reads_standard_input(monkeypatch):
@@ -124,6 +138,45 @@ def test_a_direction_measured_twice_is_two_samples(tmp_path):
     measurement = read(tmp_path, "lambda,theta_i,theta_r,brdf\n450,30,30,.1\n450,30,30,.2\n550,30,30,.3\n")
     np.testing.assert_allclose(np.sort(measurement.brdf[:, 0]), [0.1, 0.2])
     assert "repeated-rows" in codes(measurement)
+
+
+@pytest.mark.parametrize("names", ["400nm,700nm", "400,700", "BRDF_400,BRDF_700", "wl400,wl700", "lambda=400,lambda=700", "0.4um,0.7um", "brdf 400 nm,brdf 700 nm"])
+def test_a_column_for_each_wavelength_named(tmp_path, names):
+    measurement = read(tmp_path, f"theta_i,theta_r,{names}\n" + "".join(f"{i:g},{r:g},{f:g},{2 * f:g}\n" for i, r, f in ROWS))
+    check(measurement)
+    np.testing.assert_allclose(measurement.geom.wavelength, [0.4, 0.7])
+    np.testing.assert_allclose(measurement.brdf[:, 1], 2 * measurement.brdf[:, 0])
+
+
+@pytest.mark.parametrize("form", ["{}", "theta_i={}", "{} deg", "AOI {}", "{}°", "BRDF @ {} deg", "inc{}"])
+def test_a_column_for_each_incidence_named(tmp_path, form):
+    names = ",".join(form.format(angle) for angle in (15, 30, 60))
+    measurement = read(tmp_path, f"theta_r,{names}\n-40,.1,.2,.3\n0,.2,.3,.4\n30,.4,.8,.5\n")
+    assert "incidence-columns" in codes(measurement)
+    np.testing.assert_allclose(measurement.geom.theta_i_deg[:, 0], np.repeat([15, 30, 60], 3))
+    np.testing.assert_allclose(measurement.geom.signed_theta_r_deg[:, 0], np.tile([-40, 0, 30], 3))
+    np.testing.assert_allclose(measurement.brdf[:, 0], [0.1, 0.2, 0.4, 0.2, 0.3, 0.8, 0.3, 0.4, 0.5])
+
+
+def test_values_in_percent_are_divided_by_a_hundred(tmp_path):
+    measurement = read(tmp_path, plain(header=("theta_i", "theta_r", "reflectance factor [%]")))
+    np.testing.assert_allclose(measurement.brdf[:, 0] * np.pi * 100, [row[2] for row in ROWS])
+    assert {"percent", "quantity-stated"} <= codes(measurement)
+
+
+def test_a_name_that_says_little_is_taken_for_the_brdf_and_noted(tmp_path):
+    assert "quantity-assumed" in codes(read(tmp_path, plain(header=("theta_i", "theta_r", "intensity"))))
+
+
+def test_expanded_uncertainties_are_divided_by_their_factor(tmp_path):
+    measurement = read(tmp_path, "theta_i,theta_r,brdf,BRDF uncertainty (k=2)\n30,30,.5,.02\n30,40,.4,.01\n")
+    np.testing.assert_allclose(measurement.stderr[:, 0], [0.01, 0.005])
+    relative = read(tmp_path, "theta_i,theta_r,brdf,relative uncertainty [%]\n30,30,.5,2\n30,40,.4,5\n")
+    np.testing.assert_allclose(relative.stderr[:, 0], [0.01, 0.02])
+
+
+def test_a_title_above_the_header_may_name_the_wavelength(tmp_path):
+    assert read(tmp_path, "Sample: paint\nWavelength: 633 nm\n\n" + plain()).geom.wavelength[0] == pytest.approx(0.633)
 
 
 def test_percent_and_relative_uncertainties_become_absolute(tmp_path):
