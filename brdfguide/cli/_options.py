@@ -54,6 +54,8 @@ def write_whole(path: Path, content: bytes | str, *, force: bool = True) -> None
     path = Path(path)
     if path.exists() and not force:
         raise InputError(f"{path} exists; --force replaces it")
+    if path.is_dir():
+        raise InputError(f"cannot write {path}: it is a folder")
     data = content.encode() if isinstance(content, str) else content
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
     try:

@@ -9,8 +9,31 @@ from typer import Option
 
 from ..errors import BrdfguideError, InputError, NoAnswer, choices
 
-ExportOption = Annotated[list[str] | None, Option("--export", help="TARGET:FILE, such as mitsuba:paint.xml, of the recommended model; repeatable.")]
-MaxErrorOption = Annotated[float | None, Option("--max-export-error", help="Export nothing whose rms ln exceeds this.")]
+
+def _checked_specs(specs: list[str] | None) -> list[str] | None:
+    """The same, before any work is done. Raises InputError for an unknown target, a missing folder, and a file named twice."""
+    if specs:
+        from .. import exporters
+
+        files = [exporters.parse_spec(spec)[1] for spec in specs]
+        for place, path in enumerate(files):
+            if path in files[:place]:
+                raise InputError(f"--export names {path} twice")
+            if not path.parent.is_dir():
+                raise InputError(f"cannot write {path}: there is no folder {path.parent}")
+    return specs
+
+
+def _checked_error(most: float | None) -> float | None:
+    if most is not None and not most >= 0:
+        raise InputError(f"--max-export-error {most:g}: wanted an rms ln of 0 or more")
+    return most
+
+
+ExportOption = Annotated[
+    list[str] | None, Option("--export", help="TARGET:FILE, such as mitsuba:paint.xml, of the recommended model; repeatable.", callback=_checked_specs)
+]
+MaxErrorOption = Annotated[float | None, Option("--max-export-error", help="Write nothing whose rms ln exceeds this.", callback=_checked_error)]
 
 
 def export_all(specs, model, values, channels, wavelength, geom, name, most, quiet) -> BrdfguideError | None:

@@ -7,6 +7,7 @@ from typer import Argument, Option
 
 from ..errors import InputError
 from ._options import ForceOption, JsonOption, QuietOption, command_line, note, print_json, write_whole
+from ._surface import MaxErrorOption
 
 EXAMPLES = "Examples: brdfguide export fit.json --to mitsuba -o paint.xml --max-export-error 0.1 | brdfguide export porcelain --to rgl -o porcelain.bsdf"
 
@@ -19,7 +20,7 @@ def export(
     channel: Annotated[str | None, Option("--channel", help="One channel alone, as grey.")] = None,
     data: Annotated[Path | None, Option("--data", help="Judge and refit over this file's directions.")] = None,
     name: Annotated[str | None, Option("--name", help="Name inside the file; left out: the file's.")] = None,
-    max_export_error: Annotated[float | None, Option("--max-export-error", help="Write nothing if rms ln exceeds this.")] = None,
+    max_export_error: MaxErrorOption = None,
     force: ForceOption = False,
     json: JsonOption = False,
     quiet: QuietOption = False,
@@ -57,7 +58,7 @@ def export(
     else:
         files = {output: made.content} | {output.with_suffix(suffix): content for suffix, content in made.beside.items()}
         for path in files:
-            if path.exists() and not force:
+            if path.is_file() and not force:
                 raise InputError(f"{path} exists; --force replaces it")
         for path, content in reversed(files.items()):
             write_whole(path, content)

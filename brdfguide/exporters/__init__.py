@@ -45,15 +45,20 @@ def export(target: str, surface: Surface, geom: Geometry | None = None, *, most:
     return made
 
 
+def parse_spec(spec: str) -> tuple[str, Path]:
+    """Target and file of TARGET:FILE. Raises InputError for a spec without one of them, and for an unknown target."""
+    target, colon, file = spec.partition(":")
+    if not colon or not target or not file:
+        raise InputError(f"'{spec}' is not TARGET:FILE, as in mitsuba:paint.xml; targets are: {', '.join(names())}")
+    return get(target).name, Path(file)
+
+
 def export_to(spec: str, sum, values, channels, wavelength, geom=None, *, name="surface", command="", most=None, write=None) -> Statement:  # noqa: A002
     """What `--export TARGET:FILE` does: writes FILE, and files that must lie beside it, through `write(path, content)`.
 
     Raises InputError for a spec without a target or a file; otherwise raises what `export` raises, with nothing written.
     """
-    target, colon, file = spec.partition(":")
-    if not colon or not target or not file:
-        raise InputError(f"'{spec}' is not TARGET:FILE, as in mitsuba:paint.xml; targets are: {', '.join(names())}")
-    path = Path(file)
+    target, path = parse_spec(spec)
     surface = Surface(sum, check_values(sum, values, len(channels)), tuple(channels), wavelength, name, command)
     made = export(target, surface, geom, most=most, stem=path.stem)
     put = write or _write

@@ -1,11 +1,17 @@
 """Surfaces to export: one of each law, five described materials, and seeded random ones."""
 
+import json
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
-from brdfguide import models
+from brdfguide import exporters, models, saved
 from brdfguide.exporters._base import Surface
 from brdfguide.geometry import Geometry, rows
+
+from ..conftest import ROOT
 
 RGB_UM = np.array([0.65, 0.55, 0.45])
 BANDS = np.arange(0.40, 0.701, 0.05)
@@ -50,6 +56,8 @@ EVERY_LAW = {
     "polish": surface("lambertian+mirror", lambertian__albedo=0.3, mirror__sigma=0.03),
 }
 MATERIALS = ("porcelain", "brass", "rough-plastic", "satin-chrome", "matt-wall-paint")
+EXAMPLES = tuple(sorted(path.stem for path in (ROOT / "examples").glob("*.csv")))
+NAMES = (*EVERY_LAW, *MATERIALS, *EXAMPLES)  # what the readers load
 
 
 @pytest.fixture(params=EVERY_LAW)
@@ -97,7 +105,6 @@ def vectors(geom: Geometry) -> tuple[np.ndarray, np.ndarray]:
 
 def all_surfaces() -> dict[str, Surface]:
     """One of each law, and the first candidate of five described materials."""
-    from brdfguide import exporters
     from brdfguide.cli._surface import described
 
     return EVERY_LAW | {name: exporters.surface_of(described(name), name) for name in MATERIALS}
@@ -106,3 +113,23 @@ def all_surfaces() -> dict[str, Surface]:
 @pytest.fixture(scope="session")
 def surfaces() -> dict[str, Surface]:
     return all_surfaces()
+
+
+@pytest.fixture(scope="session")
+def of(surfaces, tmp_path_factory):
+    """The surfaces that a name of NAMES stands for: itself, or every model that `fit` ranks on that example, as `export FIT.json --model` reads it."""
+    fitted = {}
+
+    def surfaces_of(name: str) -> list[Surface]:
+        if name not in EXAMPLES:
+            return [surfaces[name]]
+        if name not in fitted:
+            path = tmp_path_factory.mktemp("fits") / f"{name}.json"
+            words = [sys.executable, "-m", "brdfguide", "fit", f"examples/{name}.csv", "--json", "--no-timing"]
+            path.write_text(subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True).stdout)
+            ranked = [row["model"] for row in json.loads(path.read_text())["ranking"]]
+            fitted[name] = [exporters.surface_of(saved.read_fit(path, model), f"{name}: {model}") for model in ranked]
+            assert len(fitted[name]) >= 8
+        return fitted[name]
+
+    return surfaces_of

@@ -40,9 +40,18 @@ def test_wrong_words_are_sentences(tmp_path):
         (("export", "--model", "ggx", "ggx.alpha=wide", "--to", "usd", "-o", "x"), "wanted one number, or three"),
         (("export", "--to", "usd", "-o", "x"), "what to export"),
         (("export", "--model", "ggx", "--to", "usd"), "-o FILE is missing"),
+        (("export", "--model", "ggx", "--to", "usd", "-o", "."), "cannot write .: it is a folder"),
+        (("export", "--model", "ggx", "--to", "usd", "-o", "x", "--max-export-error", "-1"), "--max-export-error -1: wanted an rms ln of 0 or more"),
+        (("export", "--model", "ggx", "--to", "usd", "-o", "x", "--max-export-error", "nan"), "wanted an rms ln of 0 or more"),
     ):
         made = run(*words, cwd=tmp_path)
         assert made.returncode == 2 and said in made.stderr and "Traceback" not in made.stderr, made.stderr
+
+
+@pytest.mark.parametrize("spec, said", [("foo:b.z", "no exporter called 'foo'"), ("mitsuba", "'mitsuba' is not TARGET:FILE"), ("usd:no/b.usda", "there is no folder no"), ("usd:a.xml", "--export names a.xml twice")])  # fmt: skip
+def test_wrong_export_among_right_ones_is_said_before_anything_is_done(spec, said, tmp_path):
+    made = run("fit", str(ROOT / "examples/rough_plastic.csv"), "--export", "mitsuba:a.xml", "--export", spec, cwd=tmp_path)
+    assert made.returncode == 2 and said in made.stderr and made.stdout == "" and list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("name", ["lambertian", "ggx", "paint", "mirror", "polish"])

@@ -1,5 +1,7 @@
 """Mitsuba loads every XML, dict and table, and evaluates them at 1000 directions as the statement says."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -8,12 +10,12 @@ from brdfguide.exporters import _mitsuba
 from brdfguide.exporters._base import Refused
 from brdfguide.exporters._blurred import blurred
 from brdfguide.exporters._choice import choose
+from brdfguide.exporters._directions import chosen, rms_ln
 
-from .conftest import EVERY_LAW, MATERIALS, directions, vectors
+from .conftest import EVERY_LAW, EXAMPLES, NAMES, directions, vectors
 
 mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba: the reader of these exports")
 pytestmark = [pytest.mark.validate, pytest.mark.filterwarnings("ignore")]
-NAMES = [*EVERY_LAW, *MATERIALS]
 
 
 @pytest.fixture(autouse=True)
@@ -34,46 +36,59 @@ def evaluated(bsdf, geom, wavelengths=()) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_xml_and_dict_load_and_evaluate_as_stated(name, surfaces):
-    surface, geom = surfaces[name], directions()
-    made, twin = exporters.export("mitsuba", surface), exporters.export("mitsuba-dict", surface)
-    namespace = {}
-    exec(twin.content, namespace)  # noqa: S102  our own file, as its user would import it
-    got = evaluated(mitsuba.load_string(made.content), geom)
-    np.testing.assert_allclose(evaluated(mitsuba.load_dict(namespace["MATERIAL"]), geom), got, rtol=1e-5, atol=1e-9)
-    if not _mitsuba.has_finite(surface):
-        return
-    if made.statement.status == "exact":
-        np.testing.assert_allclose(got, surface.rgb(geom), rtol=1e-4)
-    laws = _mitsuba._candidates(surface)
-    choice = choose(surface, None, laws)
-    law = laws[choice.name]
-    ours = np.broadcast_to(law.at(geom, {key: value for key, value in choice.values.items() if key not in law.fixed}), got.shape)
-    np.testing.assert_allclose(got, ours, rtol=1e-4, atol=1e-6)  # so the residual, taken of our law, is Mitsuba's
+def test_xml_and_dict_load_and_evaluate_as_stated(name, of):
+    geom = directions()
+    for surface in of(name):
+        try:
+            made, twin = exporters.export("mitsuba", surface), exporters.export("mitsuba-dict", surface)
+        except Refused:
+            continue
+        namespace = {}
+        exec(twin.content, namespace)  # noqa: S102  our own file, as its user would import it
+        got = evaluated(mitsuba.load_string(made.content), geom)
+        np.testing.assert_allclose(evaluated(mitsuba.load_dict(namespace["MATERIAL"]), geom), got, rtol=1e-5, atol=1e-9)
+        if not _mitsuba.has_finite(surface):
+            continue
+        if made.statement.status == "exact":
+            np.testing.assert_allclose(got, surface.rgb(geom), rtol=1e-4, err_msg=surface.name)
+        laws = _mitsuba._candidates(surface)
+        choice = choose(surface, None, laws)
+        law = laws[choice.name]
+        ours = np.broadcast_to(law.at(geom, {key: value for key, value in choice.values.items() if key not in law.fixed}), got.shape)
+        np.testing.assert_allclose(got, ours, rtol=1e-4, atol=1e-6, err_msg=surface.name)  # so the residual, taken of our law, is Mitsuba's
 
 
-@pytest.mark.parametrize("name", ["ward", "paint", "phong", "rough-plastic"])
-def test_stated_residual_is_what_mitsuba_shows(name, surfaces):
-    from brdfguide.exporters._directions import chosen, rms_ln
-
-    surface = surfaces[name]
-    made = exporters.export("mitsuba", surface)
-    geom, wanted, _ = chosen(surface, None)
-    got = evaluated(mitsuba.load_string(made.content), geom)
-    assert rms_ln(got, wanted) == pytest.approx(made.statement.rms_ln, rel=1e-3)
+@pytest.mark.parametrize("name", ["ward", "paint", "phong", "rough-plastic", *EXAMPLES])
+def test_stated_residual_is_what_mitsuba_shows(name, of):
+    for surface in of(name):
+        try:
+            made = exporters.export("mitsuba", surface)
+        except Refused:
+            continue
+        geom, wanted, _ = chosen(surface, None)
+        shown = rms_ln(evaluated(mitsuba.load_string(made.content), geom), wanted)
+        if surface.mirror_most[1] > 1e-6:  # an ideal mirror beside it has a residual of its own, and the larger is stated
+            assert shown < 1.001 * made.statement.rms_ln, surface.name
+        else:
+            assert shown == pytest.approx(made.statement.rms_ln, rel=1e-3), surface.name
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_table_agrees_to_one_percent_off_the_peak(name, surfaces, tmp_path):
-    """Every direction that is 3 degrees or more from the mirror direction."""
-    surface, geom = surfaces[name], directions()
-    made = exporters.export("rgl", surface)
-    (tmp_path / "table.bsdf").write_bytes(made.content)
-    got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom)
-    wanted = blurred(surface)[0].rgb(geom)
-    counted = (wanted > 1e-3) & (geom.mirror_distance2 > np.radians(3) ** 2)
-    assert counted.sum() > 60 and np.abs(got[counted] / wanted[counted] - 1).max() < 0.01
-    assert "could not be held" not in made.statement.notes[0]
+def test_table_agrees_to_one_percent_off_the_peak(name, of, tmp_path):
+    """Every direction that is 3 degrees or more from the mirror direction, or what the note says where that cannot be held."""
+    geom = directions()
+    for surface in of(name):
+        made = exporters.export("rgl", surface)
+        (tmp_path / "table.bsdf").write_bytes(made.content)
+        got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom)
+        wanted = blurred(surface)[0].rgb(geom)
+        counted = (wanted > 1e-3) & (geom.mirror_distance2 > np.radians(3) ** 2)
+        stated = float(re.search(r"within ([\d.e+]+) % of the model", made.statement.notes[0])[1]) / 100
+        assert counted.sum() > 60 and np.abs(got[counted] / wanted[counted] - 1).max() < max(0.01, 1.5 * stated), surface.name
+        if "1 % could not be held" in made.statement.notes[0]:
+            assert set(surface.laws) <= {"phong", "phong-lewis", "lafortune"}, surface.name  # without a body they fall to 0 within sight
+        else:
+            assert stated <= 0.01
 
 
 def test_spectral_table_agrees_at_its_wavelengths(tmp_path):

@@ -13,7 +13,7 @@ from brdfguide import exporters, models
 from brdfguide.exporters import _dialect, _shader
 from brdfguide.exporters._formulas import AFTER_SERIES, FORMULAS, HE_TORRANCE
 
-from .conftest import EVERY_LAW, MATERIALS, coloured, directions, surface
+from .conftest import EVERY_LAW, EXAMPLES, NAMES, coloured, directions, surface
 
 CASES = EVERY_LAW | {
     "smooth he-torrance": surface("he-torrance", he_torrance__sigma=0.05, he_torrance__slope=0.05),
@@ -67,43 +67,50 @@ def test_every_law_has_a_formula():
         assert _dialect.colours(case) and _dialect.mirror_colours(case), name
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_compiled_in_float_it_agrees_to_a_few_ulp(name, tmp_path):
+@pytest.mark.parametrize("name", [*CASES, *EXAMPLES])
+def test_compiled_in_float_it_agrees_to_a_few_ulp(name, of, tmp_path):
     """The body of the GLSL and OSL functions, as C floats: no NaN, no overflow, 1e-4 of the model."""
+    geom = directions(4000, seed=2, most=89.0)
+    for number, case in enumerate([CASES[name]] if name in CASES else of(name)):
+        expressions = _dialect.colours(case)
+        wanted = case.rgb(geom)[:, : len(expressions)]
+        got = in_floats(expressions, geom, tmp_path / f"law{number}")[:, : len(expressions)]
+        assert np.all(np.isfinite(got)), case.name
+        np.testing.assert_allclose(got, wanted, rtol=1e-4, atol=3e-6 * wanted.max(), err_msg=case.name)
+
+
+def in_floats(expressions, geom, path) -> np.ndarray:
+    """The expressions (samples, 3) as a C compiler's floats give them."""
     compiler = shutil.which("cc") or shutil.which("gcc")
     if compiler is None:
         pytest.skip("no C compiler to run the shader's text with")
-    case, geom = CASES[name], directions(4000, seed=2, most=89.0)
-    expressions = _dialect.colours(case)
     macros = "".join(f"#define {word} {word}f\n" for word in ("exp", "log", "sqrt", "acos", "floor", "ceil"))
     body = "\n".join(f"    out[3 * j + {c}] = {_dialect.prefixed(text)};" for c, text in enumerate(expressions))
     source = f"#include <math.h>\n{macros}{_shader.functions(expressions)}\nvoid run(int n, const float *a, float *out) {{\n"
     source += f"  for (int j = 0; j < n; j++) {{\n    float ci = a[4 * j], cr = a[4 * j + 1], q = a[4 * j + 2], p = a[4 * j + 3];\n{body}\n  }}\n}}\n"
     source = re.sub(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+)", r"\1f", source)
-    (tmp_path / "law.c").write_text(source)
-    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-o", str(tmp_path / "law.so"), str(tmp_path / "law.c"), "-lm"], check=True)
+    path.with_suffix(".c").write_text(source)
+    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-o", str(path.with_suffix(".so")), str(path.with_suffix(".c")), "-lm"], check=True)
     given = np.ascontiguousarray(np.stack(list(arguments(geom).values()), axis=-1), np.float32)
     out = np.zeros((len(geom), 3), np.float32)
     pointer = lambda array: array.ctypes.data_as(ctypes.c_void_p)  # noqa: E731
-    ctypes.CDLL(str(tmp_path / "law.so")).run(len(geom), pointer(given), pointer(out))
-    wanted = case.rgb(geom)[:, : len(expressions)]
-    got = out[:, : len(expressions)]
-    assert np.all(np.isfinite(got))
-    np.testing.assert_allclose(got, wanted, rtol=1e-4, atol=3e-6 * wanted.max())
+    ctypes.CDLL(str(path.with_suffix(".so"))).run(len(geom), pointer(given), pointer(out))
+    return out
 
 
 @pytest.mark.validate
-@pytest.mark.parametrize("name", [*EVERY_LAW, *MATERIALS])
-def test_glsl_compiles(name, surfaces, tmp_path):
+@pytest.mark.parametrize("name", NAMES)
+def test_glsl_compiles(name, of, tmp_path):
     if shutil.which("glslangValidator") is None:
         pytest.skip("apt-get install glslang-tools: compiles the shaders")
-    text = exporters.export("glsl", surfaces[name]).content
-    own = re.search(r"vec3 (\w+)_brdf", text)[1]
-    main = f"in vec3 L; in vec3 V; out vec4 o; void main() {{ o = vec4({own}_brdf(L, V, vec3(0, 0, 1)) + {own}_mirror(V.z), 1); }}"
-    for version in ("#version 130", "#version 300 es\nprecision highp float;"):
-        (tmp_path / "law.frag").write_text(f"{version}\n{text}\n{main}\n")
-        run = subprocess.run(["glslangValidator", str(tmp_path / "law.frag")], capture_output=True, text=True)
-        assert run.returncode == 0, run.stdout
+    for surface in of(name):
+        text = exporters.export("glsl", surface).content
+        own = re.search(r"vec3 (\w+)_brdf", text)[1]
+        main = f"in vec3 L; in vec3 V; out vec4 o; void main() {{ o = vec4({own}_brdf(L, V, vec3(0, 0, 1)) + {own}_mirror(V.z), 1); }}"
+        for version in ("#version 130", "#version 300 es\nprecision highp float;"):
+            (tmp_path / "law.frag").write_text(f"{version}\n{text}\n{main}\n")
+            run = subprocess.run(["glslangValidator", str(tmp_path / "law.frag")], capture_output=True, text=True)
+            assert run.returncode == 0, run.stdout
 
 
 def test_osl_and_glsl_hold_the_same_functions():
