@@ -25,7 +25,7 @@ from ._placement import Warp, density, march
 FINE = 4096  # nodes of ndf
 PLACES = (193, 97)  # nodes of vndf along u and v
 LEAST = 1e-12  # 1/sr: below it float32 tables hold nothing
-FAINT = 1e-6  # least ndf, of its greatest
+FAINT = 1e-9  # least ndf, of its greatest
 CLOSE = 0.01  # of the BRDF, off the peak: what a table should be within
 PLACED_DEG = 86.0  # nodes are placed for angles up to here, so that what is judged does not reach the horizon; the rest of the incidences are:
 BEYOND = np.radians([87.0, 88.0, 89.0, 89.5, 89.9])
@@ -165,9 +165,8 @@ def best_table(brdf, geom: Geometry, wanted: np.ndarray) -> Made:
     off, grid = np.inf, None
     for each in grids(brdf):
         worst = float(np.nanmax(np.abs(each.read(judged, each.computed(brdf)) / truth - 1), initial=0.0))
-        if worst >= off:  # closer nodes do not help: a law that vanishes within sight is steep at any distance
-            break
-        off, grid = worst, each
+        if worst < off:
+            off, grid = worst, each
         if off <= 0.8 * CLOSE:  # so that other directions are within it too
             break
     note = f"a table of {len(grid.theta_i)} incidences and {grid.size} x {grid.size} half vectors: "
