@@ -86,10 +86,10 @@ def minimise(
     low, high = np.broadcast_to(low, shared.shape), np.broadcast_to(high, shared.shape)
     own_low, own_high = np.broadcast_to(own_low, own.shape), np.broadcast_to(own_high, own.shape)
 
-    r, j_shared, j_own = residuals(shared, own, True)
+    r, *slopes = residuals(shared, own, True)
     cost = _sum_of_squares(r)
     damping, grow, evaluations, converged = FIRST_DAMPING, 2.0, 1, False
-    normal, g_shared, g_own = _normal(r, j_shared, j_own)
+    normal, g_shared, g_own = _normal(r, *slopes)
     scale, own_scale = np.full(shared.shape, 1e-30), np.full(own.shape, 1e-30)
     history = [cost]  # the least cost after each evaluation
     while not converged and evaluations < most and damping < MOST_DAMPING:
@@ -108,17 +108,16 @@ def minimise(
         if expected <= 0:  # a bound cut the step so that it climbs: a shorter one will not
             damping, grow = damping * grow, grow * 2
             continue
-        r_trial = residuals(trial, own_trial, False)
+        r, *slopes = residuals(trial, own_trial, True)  # most steps are taken, and then need the slopes
         evaluations += 1
-        cost_trial = _sum_of_squares(r_trial)
+        cost_trial = _sum_of_squares(r)
         gain = (cost - cost_trial) / expected
         if np.isfinite(cost_trial) and gain > 0:
             # the promise was small and came true in part: the next one will be smaller still
             converged = expected < tolerance * cost and gain > 0.1 and damping < 1.0
             shared, own, cost = trial, own_trial, cost_trial
             damping, grow = damping * max(1 / 3, 1 - (2 * gain - 1) ** 3), 2.0
-            r, j_shared, j_own = residuals(shared, own, True)
-            normal, g_shared, g_own = _normal(r, j_shared, j_own)
+            normal, g_shared, g_own = _normal(r, *slopes)
             converged = converged or cost == 0
         else:
             # the quadratic model cannot promise a decrease that arithmetic could show

@@ -5,6 +5,7 @@ cos theta_i, p = -1. A wrong dark level adds d / cos theta_i to all: bright valu
 """
 
 from dataclasses import dataclass
+from random import Random
 
 import numpy as np
 
@@ -70,7 +71,7 @@ def _exchanged(measurement: Measurement, seed: int):
     rows = np.flatnonzero(np.any(measurement.usable, axis=1))
     if len(rows) < 12 or len(geom) > 200_000:
         return None
-    here = rows if len(rows) <= MOST else np.sort(np.random.default_rng(seed).choice(rows, MOST, replace=False))
+    here = rows if len(rows) <= MOST else rows[sorted(Random(seed).sample(range(len(rows)), MOST))]
     there, apart = _nearest(_places(geom.swapped()[here]), _places(geom[rows]))
     there = rows[there]
     close = (apart < np.radians(NEAR_DEG)) & (there != here)
@@ -133,9 +134,9 @@ def _nearest(points, among):
     """Index of the nearest of `among` for each of `points`, and the distance; in blocks, so that memory stays small."""
     index = np.empty(len(points), int)
     # single precision finds the place, to some 0.02 degrees; the distance is then formed exactly
-    rough, square = among.astype(np.float32), np.sum(among**2, axis=1, dtype=np.float32)
+    rough = np.concatenate([np.sum(among**2, axis=1, keepdims=True), among], axis=1).astype(np.float32).T
+    wanted = np.concatenate([np.ones((len(points), 1)), -2 * points], axis=1).astype(np.float32)
     for start in range(0, len(points), 512):
-        block = points[start : start + 512].astype(np.float32)
-        index[start : start + 512] = np.argmin(square - 2 * block @ rough.T, axis=1)
+        index[start : start + 512] = np.argmin(wanted[start : start + 512] @ rough, axis=1)
     distance = np.sqrt(np.sum((points - among[index]) ** 2, axis=1))
     return index, distance

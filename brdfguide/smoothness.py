@@ -9,6 +9,7 @@ SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 SPIKE_DROPS = ((np.log(5.0), 3.0), (np.log(100.0), 1.5))
 GRAZING_DEG = 85.0
 DENSE = 200_000  # directions beyond which a table is dense and has no single samples
+ASKED = 2000  # directions compared with their neighbours where there are no scans
 EDGE_DEG = 75.0  # beyond this a scan may be cut off
 
 
@@ -105,9 +106,10 @@ def _scans(measurement: Measurement):
         keys = np.round(np.stack([fixed, plane], axis=1), 1)
         order = np.lexsort((angle, keys[:, 1], keys[:, 0]))
         cuts = np.flatnonzero(np.any(np.diff(keys[order], axis=0) != 0, axis=1)) + 1
-        for rows in np.split(order, cuts):
-            if len(rows) >= 5:
-                yield rows, angle[rows]
+        edges = np.r_[0, cuts, len(order)]
+        for scan in np.flatnonzero(np.diff(edges) >= 5):  # scattered directions make tens of thousands of scans of one
+            rows = order[edges[scan] : edges[scan + 1]]
+            yield rows, angle[rows]
 
 
 def _departures(rows, angle, level):
@@ -145,21 +147,30 @@ def _mirrored(measurement: Measurement, level):
 
 
 def _scattered(measurement: Measurement, level):
-    """ln f minus a parabola through the twelve nearest directions of the same incidence, each in units of its standard deviation."""
-    geom, found = measurement.geom, []
-    if len(geom) > 20_000:
-        return found
+    """ln f minus a parabola through the twelve nearest directions of the same incidence, in units of its standard deviation.
+
+    About two thousand directions are asked, evenly spread: a median needs no more.
+    """
+    geom = measurement.geom
     phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))
     places = np.stack([geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi)], axis=1)
+    seen, stride = np.any(np.isfinite(level), axis=1), -(-len(geom) // ASKED)
+    asked, near, first = [], [], 0
     for rows in measurement.theta_i_groups.values():
-        rows = rows[np.any(np.isfinite(level[rows]), axis=1)]
+        rows = rows[seen[rows]]
         if len(rows) < 20:
             continue
-        apart = np.sum((places[rows][:, None] - places[rows][None]) ** 2, axis=2)
-        near = np.argsort(apart, axis=1)[:, 1:13]
-        x, y = np.moveaxis(places[rows][near] - places[rows][:, None], -1, 0)
-        design = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
-        weights = np.linalg.pinv(design)[:, 0]
-        guess = np.einsum("nk,nkc->nc", weights, level[rows][near])
-        found.append((level[rows] - guess) / np.sqrt(1 + np.sum(weights**2, axis=1))[:, None])
-    return found
+        for row in rows[first::stride]:
+            apart = np.sum((places[rows] - places[row]) ** 2, axis=1)
+            apart[rows == row] = np.inf
+            asked.append(row)
+            near.append(rows[np.argpartition(apart, 11)[:12]])
+        first = (first - len(rows)) % stride
+    if not asked:
+        return []
+    asked, near = np.array(asked), np.array(near)
+    x, y = np.moveaxis(places[near] - places[asked][:, None], -1, 0)
+    design = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
+    weights = np.linalg.pinv(design)[:, 0]
+    guess = np.einsum("nk,nkc->nc", weights, level[near])
+    return [(level[asked] - guess) / np.sqrt(1 + np.sum(weights**2, axis=1))[:, None]]
