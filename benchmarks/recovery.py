@@ -19,7 +19,7 @@ import numpy as np  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from brdfguide import fitting, recommend  # noqa: E402
+from brdfguide import candidates, fitting  # noqa: E402
 from brdfguide.misfit import Layout  # noqa: E402
 from tests import synthetic  # noqa: E402
 
@@ -74,7 +74,7 @@ def study(model, sets: int) -> dict:
 
 
 def main(sets: int, wanted: list[str]) -> None:
-    models = [model for model in recommend.candidates() if not wanted or fitting.label(model) in wanted]
+    models = [model for model in candidates.of_kind() if not wanted or fitting.label(model) in wanted]
     print(f"{'model':28} covered  bias  values  apart  ridge  not converged  said nothing  discrepancy   ({sets} sets each)")
     for model in models:
         found = study(model, sets)

@@ -4,9 +4,10 @@ from math import pi
 
 import numpy as np
 
+from .candidates import KINDS
 from .measurement import Finding, Measurement
 from .ranking import Ranking
-from .recommend import KINDS, Recommendation
+from .recommend import Recommendation
 from .verdict import Verdict
 
 FACTOR = 1.5  # widths and albedos further apart than this disagree (ours; twice what two observers differ by)

@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
-from . import __version__, examine, formats, recommend
+from . import __version__, candidates, examine, formats, verdict
 from .compare import compare
 from .errors import BrdfguideError
 from .fitting import Options
@@ -71,10 +71,11 @@ def one(file: Path, job: Job, place: Path | None) -> Row:
     """Fits one file and writes its answer; an error of the user's becomes a row."""
     try:
         measurement = examine.prepared(formats.read(file, **dict(job.reading)), anyway=job.anyway)
-        ranked = compare(measurement, recommend.candidates(job.kind, job.models), job.options)
+        judged = verdict.verdict(measurement)
+        ranked = compare(measurement, candidates.of_kind(job.kind or judged.known, job.models), job.options)
     except BrdfguideError as error:
         return Row(str(file), error.exit_status, None, str(error))
-    result = document.fit_document(ranked, measurement)
+    result = document.fit_document(ranked, measurement, judged)
     if place is not None:
         partial = place.with_suffix(f".{os.getpid()}.partial")
         partial.write_text(json.dumps(result, allow_nan=False))

@@ -68,10 +68,7 @@ class Measurement:
     @cached_property
     def theta_i_groups(self) -> dict[float, np.ndarray]:
         """Incidence angle [deg], to 0.1° -> its rows."""
-        angles = np.round(self.geom.theta_i_deg[:, 0], 1)
-        order = np.argsort(angles, kind="stable")
-        values, starts = np.unique(angles[order], return_index=True)
-        return dict(zip(values.tolist(), np.split(order, starts[1:])))
+        return rows_by_tenth(self.geom.theta_i_deg[:, 0])
 
     def __getitem__(self, rows) -> "Measurement":
         """The same for some of the rows: a slice, mask or list of row numbers."""
@@ -88,3 +85,11 @@ class Measurement:
 
     def noting(self, *findings: Finding) -> "Measurement":
         return replace(self, findings=self.findings + findings)
+
+
+def rows_by_tenth(angles) -> dict[float, np.ndarray]:
+    """Angle [deg], to 0.1° -> the rows that have it."""
+    angles = np.round(angles, 1)
+    order = np.argsort(angles, kind="stable")
+    values, starts = np.unique(angles[order], return_index=True)
+    return dict(zip(values.tolist(), np.split(order, starts[1:])))

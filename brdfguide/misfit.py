@@ -243,13 +243,13 @@ def with_slopes(layout: Layout, geom: Geometry, values: Mapping) -> tuple[np.nda
         amplitude = term.model.amplitude
         height = np.asarray(own.get(amplitude, 1.0))
         unit = {**own, **({amplitude: 1.0} if amplitude else {})}
-        shape = term.model(geom, **unit)
-        total = total + height * shape
         free = {key.removeprefix(term.label + "."): key for key in layout.parameters if key.startswith(term.label + ".")}
-        if amplitude in free:
-            slopes[free[amplitude]] = shape
         wanted = [name for name in free if name != amplitude]
         known = term.model.gradient(geom, wanted, **unit) if term.model.gradient and wanted else {}
+        shape = known[amplitude] if amplitude in known else term.model(geom, **unit)
+        total = total + height * shape
+        if amplitude in free:
+            slopes[free[amplitude]] = shape
         for name in wanted:
             parameter = term.model.parameter(name)
             if name in known:

@@ -1,7 +1,6 @@
-"""Which models to try on a surface, from where to start, and why.
+"""From a described Material to models with start values, and why, by the guidelines.
 
-Three ways to the same street: `candidates` for a fit that knows nothing or only the kind; `recommend` from a described
-Material, by the guidelines; `for_fit` when both are there: guidelines choose and start, the fit decides.
+`for_fit` when it was measured too: guidelines choose and start, the fit decides.
 """
 
 import time
@@ -13,55 +12,11 @@ import numpy as np
 
 from . import gloss, guidelines, material, starting
 from . import models as catalogue
-from .errors import choices
+from .candidates import BODIES, KINDS, as_metal, of_kind
 from .geometry import Geometry, rows
 from .guidelines._base import Advice
 from .material import Material
 from .models import Sum
-
-KINDS = ("metal", "dielectric")
-BODIES = ("lambertian", "oren-nayar", "coupled")
-
-# One lobe law each, cheapest first; the order has no say in a ranking by error.
-LOBES = ("phong", "phong-lewis", "blinn", "ward", "ward-gmd", "lafortune", "lafortune:2", "cook-torrance", "beckmann", "ggx", "he-torrance")
-# Laws whose amplitude is Fresnel's: on a metal n and k make it, on a dielectric n alone.
-FRESNEL = ("cook-torrance", "beckmann", "ggx", "he-torrance")
-METAL_K = 4.0  # F0 = 0.8 with n = 1, between chromium's 0.66 and silver's 0.96 (Westin et al. 2004, Table 1)
-
-
-def candidates(kind: str | None = None, names=None) -> tuple[Sum, ...]:
-    """The sums worth fitting to a surface of this kind ("metal", "dielectric"; None: not known), or those in `names`.
-
-    A metal has no subsurface term (Westin et al. 2004, section 3.2.3); a surface of unknown kind gets both sorts.
-    Raises InputError for an unknown kind or name.
-    """
-    if kind not in (None, *KINDS):
-        raise choices("kind of surface", kind, KINDS)
-    if names is not None:
-        sums = tuple(catalogue.get(name) for name in names)
-        return tuple(as_metal(each) for each in sums) if kind == "metal" else sums
-    on_body = [f"lambertian+{lobe}" for lobe in LOBES] + ["oren-nayar+ggx"]
-    bare = list(LOBES if kind == "metal" else FRESNEL)
-    dielectrics = () if kind == "metal" else tuple(catalogue.get(name) for name in on_body)
-    metals = () if kind == "dielectric" else tuple(as_metal(catalogue.get(name)) for name in bare)
-    return dielectrics + metals
-
-
-def as_metal(sum_: Sum) -> Sum:
-    """The same sum with Fresnel's factor of a metal: n held at 1, k free in each channel.
-
-    F0 = k²/(4 + k²) then is the amplitude, between 0 and 1, and F rises to 1 at grazing as it must.
-    """
-    held, freed = {}, []
-    for term in sum_.terms:
-        if {"n", "k"} <= set(term.model.defaults()):
-            held[f"{term.label}.n"] = 1.0
-            freed.append(f"{term.label}.k")
-    return replace(sum_, fixed={**sum_.fixed, **held}, free=sum_.free + tuple(freed), start={**sum_.start, **{key: METAL_K for key in freed}})
-
-
-# --- from a description ------------------------------------------------------------------------------
-
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
@@ -117,15 +72,14 @@ def recommend(described: Material, anyway: bool = False, names=None) -> Recommen
     return Recommendation(filled, advice, consultation.silent, status, verdict, evidence, shown, left_out, _unused(described))
 
 
-def for_fit(recommendation: Recommendation, kind: str | None = None) -> tuple[Sum, ...]:
-    """The sums to fit: all that its kind allows, or `kind` as the instrument tells; its own picks first, started where the guidelines say."""
-    kind = kind or (recommendation.material.kind if recommendation.material.kind in KINDS else None)
+def for_fit(recommendation: Recommendation, kind: str | None) -> tuple[Sum, ...]:
+    """The sums to fit to a surface of this kind (None: not known); the guidelines' picks first, started where they say."""
     picks = {}
     for each in recommendation.candidates:
         numbers = {key: value for key, value in each.start.items() if np.ndim(value) == 0}
         sum_ = as_metal(each.model) if kind == "metal" else each.model
         picks[each.model.name] = replace(sum_, start={**numbers, **{key: sum_.start[key] for key in sum_.free}})
-    rest = [each for each in candidates(kind) if each.name not in picks]
+    rest = [each for each in of_kind(kind) if each.name not in picks]
     finite = [each for each in picks.values() if {term.model.name for term in each.terms} != {"mirror"}]
     return tuple(finite) + tuple(rest)
 

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from .measurement import Measurement
+from .measurement import Measurement, rows_by_tenth
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 # how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
 SPIKE_DROPS = ((np.log(5.0), 3.0), (np.log(100.0), 1.5))
 GRAZING_DEG = 85.0
 DENSE = 200_000  # directions beyond which a table is dense and has no single samples
-ASKED = 2000  # directions compared with their neighbours where there are no scans
+ASKED = 1000  # directions compared with their neighbours where there are no scans
 EDGE_DEG = 75.0  # beyond this a scan may be cut off
 
 
@@ -86,12 +86,8 @@ def _ln(measurement: Measurement) -> np.ndarray:
 
 def _groups(measurement: Measurement):
     """Rows of one incidence, or of one reflected angle where the incidences are the finer scan."""
-    incidences = measurement.theta_i_groups
-    reflected = np.round(measurement.geom.theta_r_deg[:, 0], 1)
-    others = np.unique(reflected)
-    if len(others) < len(incidences):
-        return [np.flatnonzero(reflected == each) for each in others]
-    return list(incidences.values())
+    incidences, reflected = measurement.theta_i_groups, rows_by_tenth(measurement.geom.theta_r_deg[:, 0])
+    return list((reflected if len(reflected) < len(incidences) else incidences).values())
 
 
 def _scans(measurement: Measurement):
@@ -149,7 +145,7 @@ def _mirrored(measurement: Measurement, level):
 def _scattered(measurement: Measurement, level):
     """ln f minus a parabola through the twelve nearest directions of the same incidence, in units of its standard deviation.
 
-    About two thousand directions are asked, evenly spread: a median needs no more.
+    About a thousand directions are asked, evenly spread: a median needs no more.
     """
     geom = measurement.geom
     phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))

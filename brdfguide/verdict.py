@@ -28,6 +28,11 @@ class Verdict:
     evidence: tuple[str, ...]
     numbers: tuple[tuple[str, float], ...] = ()
 
+    @property
+    def known(self) -> str | None:
+        """The kind, None where it cannot be told."""
+        return None if self.kind == CANNOT_TELL else self.kind
+
 
 def verdict(measurement: Measurement) -> Verdict:
     """The verdict on one measurement. Raises nothing: too little data is a CANNOT_TELL."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from brdfguide import fitting, models, recommend
+from brdfguide import candidates, fitting, models
 from brdfguide.errors import InputError
 from brdfguide.fitting import Options
 from brdfguide.misfit import METRICS, Layout, Misfit, metric
@@ -14,8 +14,8 @@ from . import synthetic
 
 PLASTIC = models.get("lambertian+ggx")
 TRUTH = {"lambertian.albedo": 0.3, "ggx.alpha": 0.22, "ggx.n": 1.5}
-CANDIDATES = [fitting.label(model) for model in recommend.candidates()]
-BY_NAME = {fitting.label(model): model for model in recommend.candidates()}
+CANDIDATES = [fitting.label(model) for model in candidates.of_kind()]
+BY_NAME = {fitting.label(model): model for model in candidates.of_kind()}
 
 
 def plastic(**options):

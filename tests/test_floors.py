@@ -47,6 +47,7 @@ FLOORS = tuple(
         """,
         """
         agreement
+        candidates
         compare
         costs
         examine

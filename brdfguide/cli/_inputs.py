@@ -34,7 +34,7 @@ def sort_inputs(inputs: list[str]):
 
 def with_measurements(answers, measured, names, scene, pictures, anyway, explain, no_timing, json, quiet, export=lambda fit, data: None) -> None:
     """Guidelines choose and start, the fit decides, disagreements are shown; `export(fit, data)` gives the error that stopped it, if any."""
-    from .. import agreement, verdict
+    from .. import agreement, candidates, verdict
     from .. import recommend as advisor
     from ..compare import compare
     from ..report import advice, document, measured_advice
@@ -46,12 +46,10 @@ def with_measurements(answers, measured, names, scene, pictures, anyway, explain
     for path in measured:
         data = read_examined(path, anyway=anyway)
         judged = verdict.verdict(data)
-        kind = judged.kind if judged.kind in advisor.KINDS else None
-        if names is not None:
-            sums = advisor.candidates(told.material.kind if told else kind, names)
-        else:
-            sums = advisor.for_fit(told, None if told.material.kind else kind) if told else advisor.candidates(kind)
-        with progress(2 * len(sums), quiet) as tell:
+        kind = (told.material.kind if told else None) or judged.known
+        kind = kind if kind in candidates.KINDS else None  # a semiconductor gets both sorts
+        sums = advisor.for_fit(told, kind) if told and names is None else candidates.of_kind(kind, names)
+        with progress(3 * len(sums), quiet) as tell:
             ranked = compare(data, sums, progress=tell)
         differ = agreement.disagreements(told, judged, ranked, data) if told else ()
         fitted = document.fit_document(ranked, data, timing=not no_timing)

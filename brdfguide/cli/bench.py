@@ -32,11 +32,11 @@ def bench(
         surfaces = {name: (catalogue.get(name), {}) for name in chosen or catalogue.names()}
         surfaces = {name: (surface, surface.defaults()) for name, (surface, _) in surfaces.items()}
     else:
-        from .. import recommend
+        from ..candidates import of_kind
         from ..compare import compare
 
-        candidates = recommend.candidates(None, chosen)
-        with progress(2 * len(candidates), quiet) as tell:
+        candidates = of_kind(None, chosen)
+        with progress(3 * len(candidates), quiet) as tell:
             ranked = compare(read_examined(data), candidates, progress=tell)
         surfaces = {row.fit.name: (row.fit.model, {key: value[0] if getattr(value, "ndim", 0) else value for key, value in row.fit.values.items()}) for row in ranked.rows}
     laws = {name: (lambda geom, s=surface, v=values: s(geom, v)) for name, (surface, values) in surfaces.items()}

@@ -51,7 +51,7 @@ def fit(
     no_timing: NoTimingOption = False,
 ) -> None:
     """Fit the candidate models to DATA and rank them, best first."""
-    from .. import recommend, verdict
+    from .. import candidates, verdict
     from ..compare import compare
     from ..report import document, ranking
 
@@ -65,9 +65,9 @@ def fit(
         fit_many(data, Job(options, kind, names, reading_options(*reading), anyway), out, jobs, json, quiet)
     measurement = read_examined(data[0], *reading, anyway=anyway, aperture_deg=aperture_deg)
     judged = verdict.verdict(measurement)
-    candidates = recommend.candidates(kind or (judged.kind if judged.kind in recommend.KINDS else None), names)
-    with progress(3 * len(candidates), quiet) as tell:
-        ranked = compare(measurement, candidates, options, tell)
+    sums = candidates.of_kind(kind or judged.known, names)
+    with progress(3 * len(sums), quiet) as tell:
+        ranked = compare(measurement, sums, options, tell)
     result = document.fit_document(ranked, measurement, judged, timing=not no_timing)
     in_scene = of_ranking(scene, ranked, measurement, result, not no_timing, quiet) if scene else ""
     if next_:

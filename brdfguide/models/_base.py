@@ -92,7 +92,7 @@ class Model:
     parameters: tuple[Parameter, ...]
     roles: tuple[str, ...] = ("surface",)  # of: subsurface, surface, mirror
     summary: str = ""  # what it is good and bad at, in a sentence
-    # gradient(geom, names, **values) -> {name: df/dname}; names it leaves out are differenced
+    # gradient(geom, names, **values) -> {name: df/dname}; names it leaves out are differenced. By the amplitude, the law at 1, it is given for nothing
     gradient: Callable[..., dict[str, np.ndarray]] | None = None
     # mirror(geom, **values) -> reflectance of the ideal specular part at theta_i, dimensionless
     mirror: Callable[..., np.ndarray] | None = None

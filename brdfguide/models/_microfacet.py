@@ -18,13 +18,13 @@ INDEX = (
 )
 
 
-def fresnel_terms(geom: Geometry, names, shape, n, k, scale) -> dict[str, np.ndarray]:
-    """df/dn and df/dk, as far as `names` asks for them."""
-    wanted = [name for name in ("n", "k") if name in names]
-    if not wanted:
-        return {}
-    by_n, by_k = optics.fresnel_gradient(geom.cos_d, n, k)
-    return {name: scale * shape * slope for name, slope in (("n", by_n), ("k", by_k)) if name in wanted}
+def gradient_of(geom: Geometry, names, shape, by_alpha, n, k, scale) -> dict[str, np.ndarray]:
+    """df/dscale, df/dalpha, and df/dn and df/dk as far as `names` asks for them, from d ln shape/dalpha."""
+    lobe = optics.fresnel(geom.cos_d, n, k) * shape
+    out = {"scale": lobe, "alpha": scale * lobe * by_alpha}
+    if "n" in names or "k" in names:
+        out["n"], out["k"] = (scale * shape * slope for slope in optics.fresnel_gradient(geom.cos_d, n, k))
+    return out
 
 
 def with_fixed_fresnel(shape):

@@ -6,6 +6,7 @@ imaginary parts of ln g near π. A cell is computed from the terms when first to
 cells are summed term by term.
 """
 
+from functools import cache
 from math import log
 
 import numpy as np
@@ -107,6 +108,7 @@ def _powers(chebyshev, tail):
     return np.ascontiguousarray(_to_powers(n_g) @ chebyshev[:n_g, :n_y] @ _to_powers(n_y).T)
 
 
+@cache
 def _to_powers(n):
     """Column k holds the powers of Chebyshev's polynomial k."""
     polynomials = np.eye(n)

@@ -17,7 +17,7 @@ import numpy as np
 from .. import optics
 from ..geometry import Geometry, in_plane
 from ._base import Extreme, Model, Parameter, Pin
-from ._microfacet import INDEX, beckmann, fresnel_terms, with_fixed_fresnel
+from ._microfacet import INDEX, beckmann, gradient_of, with_fixed_fresnel
 
 distribution = beckmann
 
@@ -73,14 +73,11 @@ def brdf(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarray]:
     """d ln f/dalpha = (2/alpha)(t/alpha² - 1) - d ln(1 + Λi + Λr)/dalpha, with cos θ dΛ/dalpha = sin θ exp(-x²)/(2√π)."""
-    of_shape = shape(geom, alpha)
-    out = fresnel_terms(geom, names, of_shape, n, k, scale)
-    if "alpha" in names:
-        rise_i = geom.sin_i * geom.cos_r * np.exp(-(_x(geom.tan_i, alpha) ** 2))
-        rise = (rise_i + geom.sin_r * geom.cos_i * np.exp(-(_x(geom.tan_r, alpha) ** 2))) * (2 / sqrt(pi))
-        by_alpha = (2 / alpha) * (geom.tan2_h / alpha**2 - 1) - rise / _masking(geom, alpha)
-        out["alpha"] = scale * optics.fresnel(geom.cos_d, n, k) * of_shape * by_alpha
-    return out
+    masking = _masking(geom, alpha)
+    rise = geom.sin_i * geom.cos_r * np.exp(-(_x(geom.tan_i, alpha) ** 2))
+    rise = (rise + geom.sin_r * geom.cos_i * np.exp(-(_x(geom.tan_r, alpha) ** 2))) * (2 / sqrt(pi))
+    by_alpha = (2 / alpha) * (geom.tan2_h / alpha**2 - 1) - rise / masking
+    return gradient_of(geom, names, beckmann(geom, alpha) / masking, by_alpha, n, k, scale)
 
 
 def bare(geom: Geometry, alpha) -> np.ndarray:

@@ -27,7 +27,8 @@ def gradient(geom: Geometry, names, *, ks, exponent) -> dict[str, np.ndarray]:
     """df/dn = f (ln cos δ + 1/(n+2) + 1/(n+4) - (1 - ½ ln 2 · 2^(-n/2))/(n + 2^(-n/2)))."""
     power = np.exp2(-0.5 * exponent)
     of_factor = 1 / (exponent + 2) + 1 / (exponent + 4) - (1 - 0.5 * log(2) * power) / (exponent + power)
-    return {"exponent": brdf(geom, ks=ks, exponent=exponent) * (of_factor - 0.5 * geom.ln_sec2_h)}
+    lobe = brdf(geom, ks=1.0, exponent=exponent)
+    return {"ks": lobe, "exponent": ks * lobe * (of_factor - 0.5 * geom.ln_sec2_h)}
 
 
 MODEL = Model(

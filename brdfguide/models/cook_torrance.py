@@ -17,7 +17,7 @@ import numpy as np
 from .. import optics
 from ..geometry import Geometry, in_plane
 from ._base import Extreme, Model, Parameter, Pin
-from ._microfacet import INDEX, beckmann, fresnel_terms, with_fixed_fresnel
+from ._microfacet import INDEX, beckmann, gradient_of, with_fixed_fresnel
 
 
 def masking(geom: Geometry) -> np.ndarray:
@@ -42,11 +42,8 @@ def brdf(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarray]:
     """d ln f/dalpha = (2/alpha)(t/alpha² - 1)."""
-    of_shape = shape(geom, alpha)
-    out = fresnel_terms(geom, names, of_shape, n, k, scale)
-    if "alpha" in names:
-        out["alpha"] = scale * optics.fresnel(geom.cos_d, n, k) * of_shape * (2 / alpha) * (geom.tan2_h / alpha**2 - 1)
-    return out
+    by_alpha = (2 / alpha) * (geom.tan2_h / alpha**2 - 1)
+    return gradient_of(geom, names, shape(geom, alpha), by_alpha, n, k, scale)
 
 
 def bare(geom: Geometry, alpha) -> np.ndarray:

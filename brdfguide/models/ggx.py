@@ -17,7 +17,7 @@ import numpy as np
 from .. import optics
 from ..geometry import Geometry, in_plane
 from ._base import Extreme, Model, Parameter, Pin
-from ._microfacet import INDEX, fresnel_terms, with_fixed_fresnel
+from ._microfacet import INDEX, gradient_of, with_fixed_fresnel
 
 
 def distribution(geom: Geometry, alpha) -> np.ndarray:
@@ -52,16 +52,12 @@ def brdf(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarray]:
     """d ln f/dalpha = 2/alpha - 4 alpha/(alpha² + t) - alpha (sin²θi cos θr/√i + sin²θr cos θi/√r)/(cos θr √i + cos θi √r)."""
-    of_shape = shape(geom, alpha)
-    out = fresnel_terms(geom, names, of_shape, n, k, scale)
-    if "alpha" in names:
-        a2 = alpha * alpha
-        root_i = np.sqrt((1 - alpha) * (1 + alpha) * geom.cos2_i + a2)
-        root_r = np.sqrt((1 - alpha) * (1 + alpha) * geom.cos2_r + a2)
-        masking = (geom.sin_i**2 * geom.cos_r / root_i + geom.sin_r**2 * geom.cos_i / root_r) / (geom.cos_r * root_i + geom.cos_i * root_r)
-        by_alpha = 2 * (geom.tan2_h - a2) / (alpha * (geom.tan2_h + a2)) - alpha * masking
-        out["alpha"] = scale * optics.fresnel(geom.cos_d, n, k) * of_shape * by_alpha
-    return out
+    a2 = alpha * alpha
+    root_i = np.sqrt((1 - alpha) * (1 + alpha) * geom.cos2_i + a2)
+    root_r = np.sqrt((1 - alpha) * (1 + alpha) * geom.cos2_r + a2)
+    masking = (geom.sin_i**2 * geom.cos_r / root_i + geom.sin_r**2 * geom.cos_i / root_r) / (geom.cos_r * root_i + geom.cos_i * root_r)
+    by_alpha = 2 * (geom.tan2_h - a2) / (alpha * (geom.tan2_h + a2)) - alpha * masking
+    return gradient_of(geom, names, shape(geom, alpha), by_alpha, n, k, scale)
 
 
 def bare(geom: Geometry, alpha) -> np.ndarray:

@@ -45,20 +45,20 @@ def mirror(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
 
 
 def gradient(geom: Geometry, names, *, sigma, slope, n, k, scale) -> dict[str, np.ndarray]:
-    """df/dsigma, df/dslope, df/dn, df/dk, as far as `names` asks for them."""
-    bare, g, y, through_s, through_g = in_blocks(_parts, geom, sigma, slope, None, None, scale, True)
+    """df/dscale, df/dsigma and df/dslope, and df/dn and df/dk as far as `names` asks for them."""
+    bare, g, y, through_s, through_g = in_blocks(_parts, geom, sigma, slope, None, None, 1.0, True)
     ln_s, by_ln_g, by_y = ln_series(g, y, derivatives=True)
     bare = bare * np.exp(ln_s)
-    f = bare * fresnel(geom, n, k)
+    lobe = bare * fresnel(geom, n, k)
     by_tau = 2 + 2 * y * by_y  # d ln f/d ln tau
-    out = {}
-    if "sigma" in names:
-        out["sigma"] = f * (by_tau + 2 * by_ln_g) / sigma
-    if "slope" in names:
-        out["slope"] = f * (through_s + by_ln_g * through_g - by_tau) / slope
+    out = {
+        "scale": lobe,
+        "sigma": scale * lobe * (by_tau + 2 * by_ln_g) / sigma,
+        "slope": scale * lobe * (through_s + by_ln_g * through_g - by_tau) / slope,
+    }
     if "n" in names or "k" in names:
-        out["n"], out["k"] = (bare * each for each in optics.fresnel_gradient(geom.cos_d, n, k))
-    return {name: out[name] for name in names if name in out}
+        out["n"], out["k"] = (scale * bare * each for each in optics.fresnel_gradient(geom.cos_d, n, k))
+    return out
 
 
 def _parts(geom, sigma, slope, n, k, scale, derivatives=False):

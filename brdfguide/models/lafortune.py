@@ -29,11 +29,12 @@ def brdf(geom: Geometry, *, ks, tilt, exponent) -> np.ndarray:
 def gradient(geom: Geometry, names, *, ks, tilt, exponent) -> dict[str, np.ndarray]:
     """df/dn = f ln base; df/dt = f n (dbase/dt)/base, where base turns by -cos θi cos θr/(sin t |sin t|) or by -i_xy·r_xy/cos²t."""
     above, ln_base = _ln_base(geom, *_coefficients(tilt))
-    f = ks * np.where(above, np.exp(exponent * ln_base), 0.0)
+    lobe = np.where(above, np.exp(exponent * ln_base), 0.0)
+    f = ks * lobe
     wide = np.abs(tilt) < pi / 4
     sin, cos = np.where(wide, 1.0, np.sin(tilt)), np.cos(tilt)
     turned = np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
-    return {"tilt": f * exponent * turned * np.exp(-ln_base), "exponent": f * ln_base}
+    return {"ks": lobe, "tilt": f * exponent * turned * np.exp(-ln_base), "exponent": f * ln_base}
 
 
 def c_xy(tilt):

@@ -22,7 +22,8 @@ def brdf(geom: Geometry, *, ks, exponent) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, ks, exponent) -> dict[str, np.ndarray]:
     """df/dn = f ln cos α."""
-    return {"exponent": brdf(geom, ks=ks, exponent=exponent) * geom.ln_cos_m}
+    lobe = brdf(geom, ks=1.0, exponent=exponent)
+    return {"ks": lobe, "exponent": ks * lobe * geom.ln_cos_m}
 
 
 MODEL = Model(

@@ -23,7 +23,8 @@ def brdf(geom: Geometry, *, ks, exponent) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, ks, exponent) -> dict[str, np.ndarray]:
     """df/dn = f (ln cos α + 1/(n + 2))."""
-    return {"exponent": brdf(geom, ks=ks, exponent=exponent) * (geom.ln_cos_m + 1 / (exponent + 2))}
+    lobe = brdf(geom, ks=1.0, exponent=exponent)
+    return {"ks": lobe, "exponent": ks * lobe * (geom.ln_cos_m + 1 / (exponent + 2))}
 
 
 MODEL = Model(

@@ -24,8 +24,8 @@ def brdf(geom: Geometry, *, rho_s, alpha) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, rho_s, alpha) -> dict[str, np.ndarray]:
     """df/dalpha = f (2/alpha) (tan²δ/alpha² - 1)."""
-    f = brdf(geom, rho_s=rho_s, alpha=alpha)
-    return {"alpha": f * (2 / alpha) * (geom.tan2_h / alpha**2 - 1)}
+    lobe = brdf(geom, rho_s=1.0, alpha=alpha)
+    return {"rho_s": lobe, "alpha": rho_s * lobe * (2 / alpha) * (geom.tan2_h / alpha**2 - 1)}
 
 
 MODEL = Model(

@@ -165,6 +165,8 @@ def test_gradient_agrees_with_differences_with_seed_18(term):
     for values in draws(term, 18):
         inside = {p.name: within(p, 0.02) if values[p.name] <= within(p, 0.02) else min(values[p.name], within(p, 0.98)) for p in term.parameters}
         slopes = term.gradient(geom, names, **inside)
+        if term.amplitude:
+            np.testing.assert_allclose(slopes[term.amplitude] * inside[term.amplitude], term(geom, **inside), rtol=1e-12, atol=1e-300)
         for name in names:
             f, slope = term(geom, **inside), np.broadcast_to(slopes[name], geom.shape)
             seen = f > 1e-6 * f.max()  # over which the step keeps ln f within a hundredth
