@@ -137,11 +137,9 @@ def _sum_of_squares(r) -> float:
 
 def _normal(r, j_shared, j_own):
     """JᵀJ and Jᵀr by channel, the shared part summed."""
-    p = j_shared.shape[2]
-    j = np.concatenate((j_shared, j_own), axis=2)
-    squares = np.swapaxes(j, 1, 2) @ j
-    gradient = (np.swapaxes(j, 1, 2) @ r.T[:, :, None])[:, :, 0]
-    return Normal(squares[:, :p, :p].sum(0), squares[:, :p, p:], squares[:, p:, p:]), gradient[:, :p].sum(0), gradient[:, p:]
+    by_shared, by_own, r = np.swapaxes(j_shared, 1, 2), np.swapaxes(j_own, 1, 2), r.T[:, :, None]
+    normal = Normal((by_shared @ j_shared).sum(0), by_shared @ j_own, by_own @ j_own)
+    return normal, (by_shared @ r)[:, :, 0].sum(0), (by_own @ r)[:, :, 0]
 
 
 def _step(normal: Normal, g_shared, g_own, damping, own_damping, stuck, own_stuck):

@@ -182,11 +182,12 @@ class Misfit:
     def _stack(self, keys, slopes, factor):
         """(channels, samples, len(keys)) of d residual / d coordinate."""
         samples, channels = factor.shape
-        stacked = np.empty((channels, samples, len(keys)))
+        stacked = np.empty((channels, len(keys), samples))
         for place, key in enumerate(keys):
-            stacked[:, :, place] = (slopes[key] * factor).T
-        # where the whole sum has underflowed, an amplitude's slope must not overflow when it is squared
-        return np.clip(stacked, -STEEPEST, STEEPEST, out=stacked) if factor.max() > STEEPEST else stacked
+            stacked[:, place] = (slopes[key] * factor).T
+        if factor.max() > STEEPEST:  # where the whole sum has underflowed, an amplitude's slope must not overflow when it is squared
+            np.clip(stacked, -STEEPEST, STEEPEST, out=stacked)
+        return np.swapaxes(stacked, 1, 2)
 
 
 def seen(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:

@@ -11,7 +11,7 @@ from .fitting import Fit
 from .measurement import Finding, Measurement
 from .misfit import METRICS, evaluate
 
-REPEATS, TIMED_SAMPLES = 7, 4096
+REPEATS, TIMED_SAMPLES = 7, 2048
 COMPARED_SAMPLES = 40_000  # of a larger table, for all but the rms over everything
 DISTRUSTED = ("not-converged", "imitates")  # doubts with which no model is recommended
 REAL = 2.0  # standard errors from which a difference counts
@@ -64,8 +64,9 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     # errors alike to five digits are alike, and the simpler comes first
     order = sorted(range(len(fits)), key=lambda i: (not np.isfinite(errors[i][metric]), float(f"{errors[i][metric]:.5g}"), fits[i].free))
     best = residuals[order[0]]
-    noise = noise_of(best, compared)
-    segments, bins = segments_of(compared), incidence_bins(measurement)
+    along = uncertainty.along_scans(compared)
+    noise = noise_of(best[along])
+    segments, bins = segments_of(compared, along), incidence_bins(measurement)
     times, works = time_all(fits, measurement), [work_of(fit, compared) for fit in fits]
     rows = []
     for place, index in enumerate(order):
@@ -115,9 +116,8 @@ def by_theta_i(residuals, angles, places) -> dict[float, float]:
     return {float(angle): float(np.sqrt(square / count)) for angle, square, count in zip(angles, squares, counts) if count}
 
 
-def segments_of(measurement: Measurement) -> np.ndarray:
-    """A number for each row: rows with the same one are neighbours and are not counted as independent."""
-    order = uncertainty.orderings(measurement)[0]
+def segments_of(measurement: Measurement, order) -> np.ndarray:
+    """A number for each row: rows with the same one are neighbours in `order` and are not counted as independent."""
     angles = np.round(measurement.geom.theta_i_deg[order, 0], 1)
     starts = np.flatnonzero(np.diff(angles, prepend=-1.0))
     sizes = np.diff(np.append(starts, len(order)))
@@ -158,10 +158,8 @@ def difference(one, best, segments) -> tuple[float, float]:
     return power * (1 + 2 * share) / count / total, float(spread / total)
 
 
-def noise_of(residuals, measurement: Measurement) -> float:
-    """Relative standard deviation of one value, from differences of neighbours along the scans, which any smooth model leaves in."""
-    order = uncertainty.orderings(measurement)[0]
-    along = residuals[order]
+def noise_of(along) -> float:
+    """Relative standard deviation of one value, from differences of residuals that are neighbours along the scans, which any smooth model leaves in."""
     steps = along[2:] - 2 * along[1:-1] + along[:-2]
     steps = steps[np.isfinite(steps)]
     return float(1.4826 * np.median(np.abs(steps)) / np.sqrt(6)) if steps.size else 0.0

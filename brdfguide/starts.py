@@ -126,9 +126,9 @@ def _term_grid(layout: Layout, term, geom):
     base = {name: float(np.mean(value)) for name, value in base.items()}
     if term.model.amplitude and f"{term.label}.{term.model.amplitude}" in layout.parameters:
         base[term.model.amplitude] = 1.0
-    shapes = [dict(zip(names, values)) for values in product(*(_along(term.model.parameter(name), layout.model.start.get(f"{term.label}.{name}")) for name in names))]
-    values = np.stack([np.broadcast_to(term.model(geom, **{**base, **shape}), geom.shape)[:, 0] for shape in shapes])
-    return shapes, values
+    grid = list(product(*(_along(term.model.parameter(name), layout.model.start.get(f"{term.label}.{name}")) for name in names)))
+    values = term.model(geom, **{**base, **dict(zip(names, np.array(grid).T))})  # shapes stand where channels do
+    return [dict(zip(names, each)) for each in grid], np.broadcast_to(values, (len(geom), len(grid))).T
 
 
 def _along(parameter, start) -> tuple[float, ...]:

@@ -17,14 +17,19 @@ def orderings(measurement: Measurement) -> list[np.ndarray]:
     """Row orders in which neighbours lie close: along scans, by tilt of the half vector, by half angle, by incidence."""
     geom = measurement.geom
     flat = lambda values: np.ravel(np.broadcast_to(values, geom.shape))  # noqa: E731
-    azimuth = np.round(np.abs(np.remainder(flat(geom.phi_deg) + 180, 360) - 180), 1)
-    half_tilt = np.round(np.sqrt(flat(geom.tan2_h)), 3)
     return [
-        np.lexsort((flat(geom.signed_theta_r_deg), azimuth, np.round(flat(geom.theta_i_deg), 1))),
-        np.lexsort((flat(geom.cos_d), half_tilt)),
+        along_scans(measurement),
+        np.lexsort((flat(geom.cos_d), np.round(np.sqrt(flat(geom.tan2_h)), 3))),
         np.lexsort((flat(geom.tan2_h), np.round(flat(geom.cos_d), 3))),
         np.lexsort((flat(geom.tan2_h), np.round(flat(geom.theta_r_deg), 1))),
     ]
+
+
+def along_scans(measurement: Measurement) -> np.ndarray:
+    """The row order by incidence, azimuth and reflected angle."""
+    geom = measurement.geom
+    azimuth = np.round(np.abs(np.remainder(geom.phi_deg + 180, 360) - 180), 1)
+    return np.lexsort((geom.signed_theta_r_deg[:, 0], azimuth[:, 0], np.round(geom.theta_i_deg[:, 0], 1)))
 
 
 def serial_correlation(residuals: np.ndarray, orders) -> tuple[float, float]:

@@ -133,11 +133,11 @@ def _evaluate(groups, t_g, t_y, out):
             derived_g, derived_y = _derived(powers_g), _derived(powers_y)
         for cell, start, stop in here:
             (n_g, n_y), cut, part = cell.shape, slice(start - first, stop - first), slice(start, stop)
-            inner = np.einsum("ij,jn->in", cell, powers_y[:n_y, cut])
+            inner = cell @ powers_y[:n_y, cut]
             np.einsum("in,in->n", powers_g[:n_g, cut], inner, out=out[0, part])
             if len(out) == 3:
                 np.einsum("in,in->n", derived_g[:n_g, cut], inner, out=out[1, part])
-                np.einsum("in,in->n", powers_g[:n_g, cut], np.einsum("ij,jn->in", cell, derived_y[:n_y, cut]), out=out[2, part])
+                np.einsum("in,in->n", powers_g[:n_g, cut], cell @ derived_y[:n_y, cut], out=out[2, part])
 
 
 def _powers_of(t, count):
