@@ -47,7 +47,7 @@ def read_fit(path, name: str | None = None) -> Saved:
         raise choices("fitted model", wanted, rows)
     try:
         return _row(rows[wanted], document)
-    except (KeyError, TypeError, ValueError) as error:
+    except (InputError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"{path}: the entry for {wanted} is damaged ({error})") from None
 
 

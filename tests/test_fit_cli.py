@@ -67,9 +67,25 @@ def test_fixed_parameters_stay_fixed():
     assert entry["value"] == 1.5 and not entry["fitted"]
 
 
+def test_a_law_that_is_zero_everywhere_is_an_answer_without_a_growth():
+    run = brdfguide("fit", DATA, "-m", "ggx", "--fix", "n=1")  # no interface: nothing is reflected
+    assert run.returncode == 0 and "recommended: ggx" in run.stdout and "it rises" not in run.stdout
+
+
+def test_a_saved_value_where_the_law_does_not_hold_is_named(fitted, tmp_path):
+    document = json.loads(fitted.read_text())
+    document["ranking"][0]["parameters"]["lambertian.albedo"]["value"] = 7.0
+    changed = tmp_path / "changed.json"
+    changed.write_text(json.dumps(document))
+    run = brdfguide("evaluate", "--fit", changed, "--model", document["ranking"][0]["candidate"])
+    assert run.returncode == 2 and "changed.json" in run.stderr and "albedo = 7 is outside 0..1" in run.stderr
+
+
 WRONG = {
     ("--fix", "ggx.beta=1"): "no parameter of any candidate called 'ggx.beta'",
     ("--fix", "alpha"): "wanted name=number",
+    ("--fix", "albedo=1.5"): "albedo = 1.5 is outside 0..1",
+    ("--start", "lafortune.tilt=400"): "tilt = 400 is outside -85.9437..162 deg",
     ("--metric", "log"): "no metric called 'log'",
     ("--weights", "stderr2"): "no weighting called 'stderr2'",
     ("-m", "lambertian+gxg"): "did you mean ggx",

@@ -36,7 +36,6 @@ class Parameter:
         """The lower bound of a value that is given."""
         return self.low if self.given_low is None else self.given_low
 
-
     @property
     def outside_unit(self) -> str:
         """Its unit where people read it: angles are degrees there."""
@@ -47,7 +46,11 @@ class Parameter:
         return np.degrees(value) if self.unit == "rad" else value
 
     def inside(self, value):
-        """A value that people gave, as the law wants it."""
+        """A value, or one for each channel, that people gave, as the law wants it. Raises InputError where the law does not hold."""
+        low, high = self.outside(self.least), self.outside(self.high)
+        for each in np.atleast_1d(value):
+            if not low <= each <= high:
+                raise InputError(f"{self.name} = {each:g} is outside {low:g}..{high:g} {self.outside_unit}".rstrip())
         return np.radians(value) if self.unit == "rad" else value
 
 
@@ -166,7 +169,7 @@ class Sum:
     def qualified(self, values: Mapping) -> dict:
         """What a user gave, as the laws want it: `alpha` as `ggx.alpha`, degrees as radians.
 
-        A name without a term belongs to every term that has it. Raises InputError for others.
+        A name without a term belongs to every term that has it. Raises InputError for others, and for a value where the law does not hold.
         """
         out = {}
         for name, value in values.items():
@@ -208,10 +211,3 @@ class Sum:
     @property
     def roles(self) -> set[str]:
         return {role for term in self.terms for role in term.model.roles}
-
-
-def bounded(parameter: Parameter, value: float) -> float:
-    """`value`, if it lies within the bounds where the law holds. Raises InputError otherwise."""
-    if not parameter.least <= value <= parameter.high:
-        raise InputError(f"{parameter.name} = {value:g} is outside {parameter.least:g}..{parameter.high:g} {parameter.unit}".rstrip())
-    return value

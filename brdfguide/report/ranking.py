@@ -88,7 +88,7 @@ def with_error(value: float, error: float | None) -> str:
 def recommendation(document: dict) -> str:
     row = next(each for each in document["ranking"] if each["candidate"] == document["recommended"])
     lines = [f"recommended: {document['recommended']}", wrapped(document["because"])]
-    if row.get("growth"):
+    if row.get("growth") and _finite(row["growth"]["r_mirror"]):  # a model that is 0 everywhere has none
         lines.append(wrapped(growth_text(row["growth"])))
     return "\n".join(lines)
 
