@@ -218,10 +218,16 @@ class Geometry:
         normal = dict(cos_i=1.0, sin_i=0.0, cos_r=1.0, sin_r=0.0, vxy2=0.0, dot_xy=0.0, cos_difference=0.0, phi_i_deg=0.0, phi_deg=180.0)
         return replace(self, **{name: np.where(self.lit, getattr(self, name), value) for name, value in normal.items()})
 
+    @cached_property
+    def lying(self) -> "Geometry":
+        """The same with directions (1, samples) along the last axis and wavelengths (channels, 1): three channels make a short inner loop."""
+        wavelength = np.reshape(self.wavelength, (-1, 1)) if np.ndim(self.wavelength) else self.wavelength
+        return replace(self, **{name: np.transpose(getattr(self, name)) for name in DIRECTIONAL}, wavelength=wavelength)
+
     def at(self, wavelength) -> "Geometry":
         """The same directions at another wavelength [µm], with what was derived from them so far."""
         other = replace(self, wavelength=wavelength)
-        other.__dict__.update({name: value for name, value in self.__dict__.items() if name != "wavelength"})
+        other.__dict__.update({name: value for name, value in self.__dict__.items() if name not in ("wavelength", "lying")})
         return other
 
 

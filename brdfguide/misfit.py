@@ -152,12 +152,12 @@ class Misfit:
     def _root_weights(self):
         weights = np.where(self.measurement.usable, self.weights, 0.0)
         geom = self.measurement.geom
-        return np.sqrt(weights) * (geom.cos_i * geom.cos_r if self.metric.cosine else 1.0)
+        return np.asfortranarray(np.sqrt(weights) * (geom.cos_i * geom.cos_r if self.metric.cosine else 1.0))
 
     @cached_property
     def _data(self):
-        """The measurement with a harmless 1 where there is none."""
-        return np.where(self.measurement.usable, self.measurement.brdf, 1.0)
+        """The measurement with a harmless 1 where there is none; in memory channel by channel, as the laws are evaluated."""
+        return np.asfortranarray(np.where(self.measurement.usable, self.measurement.brdf, 1.0))
 
     @cached_property
     def _scaled_data(self):
@@ -220,13 +220,14 @@ def evaluate(model: Sum, geom: Geometry, values: Mapping) -> np.ndarray:
     """The sum at every direction (samples, channels), in blocks that fit the cache; two threads for a large table."""
     channels = max((np.size(value) for value in values.values()), default=1)
     channels = max(channels, np.size(geom.wavelength))
+    lying = _lying(values)
     if len(geom) <= LARGE:
-        return np.broadcast_to(model(geom, values), (len(geom), channels))
+        return np.broadcast_to(model(geom.lying, lying).T, (len(geom), channels))
     out = np.empty((len(geom), channels))
 
     def fill(block) -> None:
         rows, part = block
-        out[rows] = model(part, values)
+        out[rows] = model(part.lying, lying).T
 
     with ThreadPoolExecutor(THREADS) as pool:
         list(pool.map(fill, geom.blocks()))
@@ -239,6 +240,7 @@ def with_slopes(layout: Layout, geom: Geometry, values: Mapping) -> tuple[np.nda
     A law without an analytic gradient is differenced centrally in the coordinate of its parameter.
     """
     total, slopes = 0.0, {}
+    geom, values = geom.lying, _lying(values)
     for term in layout.model.terms:
         own = layout.model.of_term(term, values)
         amplitude = term.model.amplitude
@@ -258,7 +260,12 @@ def with_slopes(layout: Layout, geom: Geometry, values: Mapping) -> tuple[np.nda
             else:
                 slope = _difference(term.model, geom, unit, parameter)
             slopes[free[name]] = height * slope
-    return total, slopes
+    return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
+
+
+def _lying(values: Mapping) -> dict:
+    """Values of each channel (channels,) as (channels, 1), to go with `Geometry.lying`."""
+    return {key: np.reshape(value, (-1, 1)) if np.ndim(value) else value for key, value in values.items()}
 
 
 def _difference(model, geom: Geometry, values: dict, parameter: Parameter):

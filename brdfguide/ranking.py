@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import sqrt
 from time import perf_counter_ns
 
 import numpy as np
@@ -88,12 +89,13 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
 def all_errors(residuals, measurement: Measurement) -> dict[str, float]:
     """The rms error on every scale, relative to the data's own rms on it where the scale is not logarithmic."""
     data = np.where(np.isfinite(residuals), measurement.brdf, np.nan)
-    ratio = np.exp(np.minimum(residuals, 300.0))
+    third = np.exp(np.minimum(residuals, 300.0) / 3)
+    ratio = third**3
     cosine = measurement.geom.cos_i * measurement.geom.cos_r
     root = lambda values: float(np.sqrt(np.nanmean(values**2)))  # noqa: E731
     return {
         "ln": root(residuals),
-        "cube-root": root(np.cbrt(data) * (np.cbrt(ratio) - 1)) / root(np.cbrt(data)),
+        "cube-root": root(np.cbrt(data) * (third - 1)) / root(np.cbrt(data)),
         "relative": root(ratio - 1),
         "cosine": root(data * (ratio - 1) * cosine) / root(data * cosine),
     }
@@ -141,17 +143,18 @@ def difference(one, best, segments) -> tuple[float, float]:
     Σ d² has drawn c to itself, and its sum is widened for it (Bell and McCaffrey 2002, CR2). Where d lives in few
     segments the error is itself uncertain; it is widened as Student's t is at two standard errors.
     """
+    seen = np.isfinite(one - best)
+    count = max(np.count_nonzero(seen), 1)
+    one, best = np.where(seen, one, 0.0), np.where(seen, best, 0.0)
     apart = one - best
-    seen = np.isfinite(apart) & np.isfinite(best)
-    total = float(np.sqrt(np.mean(one[seen] ** 2)) + np.sqrt(np.mean(best[seen] ** 2)))
-    power = float(np.sum(apart[seen] ** 2))
+    total = sqrt(np.vdot(one, one) / count) + sqrt(np.vdot(best, best) / count)
+    squares = np.einsum("sc,sc->s", apart, apart)
+    power = float(squares.sum())
     if total == 0 or power == 0:
         return 0.0, 0.0
-    count = np.count_nonzero(seen)
-    share = float(np.sum(best[seen] * apart[seen])) / power
-    chance = np.where(seen, 2 * apart * (best - share * apart), 0.0)
-    sums = np.bincount(segments, chance.sum(axis=1))
-    leverage = np.bincount(segments, np.where(seen, apart**2, 0.0).sum(axis=1)) / power
+    share = float(np.vdot(best, apart)) / power
+    sums = np.bincount(segments, np.einsum("sc,sc->s", 2 * apart, best - share * apart))
+    leverage = np.bincount(segments, squares) / power
     freedom = max(1 / np.sum(leverage**2) - 1, 1.0)
     student = 1 + 1.25 / freedom + 1.53 / freedom**2  # t/z at z = 2, to second order
     spread = student * np.sqrt(np.sum(sums**2 / np.maximum(1 - leverage, 1e-3))) / count

@@ -36,12 +36,14 @@ def serial_correlation(residuals: np.ndarray, orders) -> tuple[float, float]:
     """Largest lag-one correlation of residuals (samples, channels; NaN missing) over the orders, and its z-score."""
     worst, score = 0.0, 0.0
     for order in orders:
-        ahead, behind = residuals[order][1:], residuals[order][:-1]
-        both = np.isfinite(ahead) & np.isfinite(behind)
-        count = np.count_nonzero(both)
+        along = residuals[order]
+        ahead, behind = along[1:], along[:-1]
+        both = np.isfinite(ahead + behind)
+        if not both.all():
+            ahead, behind = ahead[both], behind[both]
+        count = ahead.size
         if count < 8:
             continue
-        ahead, behind = ahead[both], behind[both]
         power = 0.5 * (np.mean(ahead**2) + np.mean(behind**2))
         correlation = float(np.mean(ahead * behind) / power) if power > 0 else 0.0
         if correlation > worst:
