@@ -105,6 +105,9 @@ def minimise(
             converged = True
             break
         expected = -_model_change(normal, g_shared, g_own, step, own_step)
+        if 0 < expected < tolerance * 1e-1 * cost and damping < FIRST_DAMPING:
+            converged = True  # what is left to gain is too little to go and look
+            break
         if expected <= 0:  # a bound cut the step so that it climbs: a shorter one will not
             damping, grow = damping * grow, grow * 2
             continue

@@ -45,7 +45,7 @@ def held_out(fit: Fit, used: Measurement, options: Options = Options()) -> HeldO
     for inside in folds:
         rest = used[~inside]
         misfit = Misfit(layout, rest, metric(options.metric), np.ones_like(rest.brdf))
-        end = levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-3, most=20)
+        end = levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-4, most=20)
         residuals = fitting.ln_residuals(fit.model, used[inside], layout.decode(end.shared, end.own))
         squares, counts = squares + np.nansum(residuals**2), counts + np.count_nonzero(np.isfinite(residuals))
         last = float(np.sqrt(np.nanmean(residuals**2)))

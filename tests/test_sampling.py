@@ -64,7 +64,7 @@ def test_an_rgl_table_of_32_by_32_nodes_is_settled_on_as_a_whole(data, name):
 def test_of_a_larger_rgl_table_a_finer_subset_keeps_every_answer_within_two_standard_errors(data, model, monkeypatch):
     table = formats.read(data / "rgl" / "cg_sunflower_rgb.bsdf")
     coarse = fitting.fit(models.get(model), table)
-    monkeypatch.setattr(fitting, "POLISH_SAMPLES", len(table.geom))
+    monkeypatch.setattr(fitting, "SETTLE_VALUES", table.brdf.size)
     fine = fitting.fit(models.get(model), table)
     assert len(coarse.residuals) == len(table.geom)
     for name, stderr in coarse.stderr.items():
