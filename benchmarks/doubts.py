@@ -36,7 +36,7 @@ def discrepancies(geom, channels: int, draws: int) -> tuple[int, int]:
 def scores(geom, key: str, value: float, draws: int) -> np.ndarray:
     """Printed difference over its printed error, of two laws on either side of the truth."""
     data = synthetic.surface(GGX, geom, TRUTH)
-    segments, bend = ranking.segments_of(data, uncertainty.along_scans(data)), fitting.ln_residuals(GGX, data, {**TRUTH, key: value})
+    segments, bend = uncertainty.segments_of(data, uncertainty.along_scans(data)), fitting.ln_residuals(GGX, data, {**TRUTH, key: value})
     out = []
     for seed in range(draws):
         noise = 0.03 * np.random.default_rng([seed, 31]).standard_normal(data.brdf.shape)

@@ -74,6 +74,7 @@ class Data:
     search: Measurement  # few directions, few channels
     search_weights: np.ndarray
     orders: list  # of the rows of `settle`
+    segments: np.ndarray  # of neighbours among them
 
 
 def prepare(measurement: Measurement, options: Options = Options()) -> Data:
@@ -90,7 +91,7 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     close = sampling.representative_rows(settle, NEAR_SAMPLES)
     weights, orders = weights[rows], uncertainty.orderings(settle)
     return Data(
-        measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders
+        measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders, uncertainty.segments_of(settle, orders[0])
     )  # fmt: skip
 
 
@@ -139,8 +140,13 @@ def settle(searched: Search, data: Data, options: Options, hopeless: bool = Fals
     correlation, score = uncertainty.serial_correlation(part, data.orders)
     variance = best.cost / max(np.count_nonzero(settled.usable) - layout.count, 1)
     stderr = uncertainty.standard_errors(layout, values, best.normal, variance, part, correlation)
+    wrong = uncertainty.discrepancy(part, correlation, score)
+    if wrong and not hopeless:
+        misfit = Misfit(layout, data.settle, scale, weights)(*start, True)
+        wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, misfit, data.segments)
+        stderr = {key: np.maximum(error, wide[key]) for key, error in stderr.items()}
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
-    warnings += [warning for warning in (uncertainty.discrepancy(part, correlation, score), _disagreement(layout, found)) if warning]
+    warnings += [warning for warning in (wrong, _disagreement(layout, found)) if warning]
     wide = variance * uncertainty.serial_widening(correlation) * uncertainty.common_channels(part)
     warnings = waves.in_place_of(warnings, waves.doubts(layout, settled, *start, wide, stderr))
     if hopeless:

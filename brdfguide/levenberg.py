@@ -12,6 +12,7 @@ method"); bounds by projection with an active set, as in Kanzow, Yamashita and F
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -37,11 +38,23 @@ class Normal:
 
         A direction that the residuals do not depend on gets an enormous variance, never an arbitrary one.
         """
-        inverse_own = _variances(self.own, np.einsum("cqq->cq", self.own))
-        reduced = self.shared - np.einsum("cpq,cqr,csr->ps", self.between, inverse_own, self.between)
-        shared = _variances(reduced, np.diag(self.shared))
-        lever = inverse_own @ np.swapaxes(self.between, 1, 2)
+        shared, inverse_own, lever = self._inverse
         return shared, inverse_own + lever @ shared @ np.swapaxes(lever, 1, 2)
+
+    def influence(self, r, j_shared, j_own) -> tuple[np.ndarray, np.ndarray]:
+        """(JᵀJ)⁻¹ Jᵀr sample by sample: how far each moves the shared (samples, p) and each channel's own (channels, samples, q) parameters."""
+        shared, inverse_own, lever = self._inverse
+        pull, own_pull = j_shared * r.T[:, :, None], j_own * r.T[:, :, None]
+        moved = (pull - own_pull @ lever).sum(0) @ shared
+        return moved, own_pull @ inverse_own - moved @ np.swapaxes(lever, 1, 2)
+
+    @cached_property
+    def _inverse(self):
+        """Inverse of the shared block, others eliminated; of each channel's own; and what own parameters follow shared ones by."""
+        inverse_own = _variances(self.own, np.einsum("cqq->cq", self.own))
+        lever = inverse_own @ np.swapaxes(self.between, 1, 2)
+        reduced = self.shared - np.einsum("cpq,cqs->ps", self.between, lever)
+        return _variances(reduced, np.diag(self.shared)), inverse_own, lever
 
     def condition(self) -> float:
         """Condition number of the shared block, other parameters eliminated, each scaled to unit length."""

@@ -16,7 +16,6 @@ REPEATS, TIMED_SAMPLES = 7, 2048
 COMPARED_SAMPLES = 40_000  # of a larger table, for all but the rms over everything
 DISTRUSTED = ("not-converged", "imitates")  # doubts with which no model is recommended
 REAL = 2.0  # standard errors from which a difference counts
-SEGMENTS = 8  # of each incidence angle: neighbours in one segment err together
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +66,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     best = residuals[order[0]]
     along = uncertainty.along_scans(compared)
     noise = noise_of(best[along])
-    segments, bins = segments_of(compared, along), incidence_bins(measurement)
+    segments, bins = uncertainty.segments_of(compared, along), incidence_bins(measurement)
     times, works = time_all(fits, measurement), [work_of(fit, compared) for fit in fits]
     rows = []
     for place, index in enumerate(order):
@@ -116,20 +115,6 @@ def by_theta_i(residuals, angles, places) -> dict[float, float]:
     squares = np.bincount(places, np.sum(np.where(seen, residuals, 0.0) ** 2, axis=1), minlength=len(angles))
     counts = np.bincount(places, seen.sum(axis=1), minlength=len(angles))
     return {float(angle): float(np.sqrt(square / count)) for angle, square, count in zip(angles, squares, counts) if count}
-
-
-def segments_of(measurement: Measurement, order) -> np.ndarray:
-    """A number for each row: rows with the same one are neighbours in `order` and are not counted as independent."""
-    angles = np.round(measurement.geom.theta_i_deg[order, 0], 1)
-    starts = np.flatnonzero(np.diff(angles, prepend=-1.0))
-    sizes = np.diff(np.append(starts, len(order)))
-    if len(starts) > 64:  # scattered incidence: the order alone decides
-        starts, sizes = np.array([0]), np.array([len(order)])
-    each = SEGMENTS if len(starts) > 1 else int(np.clip(len(order) // 50, 4 * SEGMENTS, 256))
-    segments = np.empty(len(order), int)
-    for group, (start, size) in enumerate(zip(starts, sizes)):
-        segments[order[start : start + size]] = group * each + np.arange(size) * each // size
-    return segments
 
 
 def difference(one, best, segments) -> tuple[float, float]:

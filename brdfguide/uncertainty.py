@@ -8,6 +8,7 @@ from .levenberg import Normal
 from .measurement import Finding, Measurement
 from .misfit import Layout, slope_of_coordinate
 
+SEGMENTS = 8  # of each incidence angle: neighbours in one segment err together
 LOOSE = 0.5  # standard error of a logarithm beyond which a parameter counts as not determined: a factor 1.6
 ILL = 1e3  # condition number of the scaled problem beyond which single intervals mislead (ours)
 DISCREPANT = 3.5  # standard deviations of the lag-one correlation, over four orderings: under 1 in 1000 by chance
@@ -30,6 +31,20 @@ def along_scans(measurement: Measurement) -> np.ndarray:
     geom = measurement.geom
     azimuth = np.round(np.abs(np.remainder(geom.phi_deg + 180, 360) - 180), 1)
     return np.lexsort((geom.signed_theta_r_deg[:, 0], azimuth[:, 0], np.round(geom.theta_i_deg[:, 0], 1)))
+
+
+def segments_of(measurement: Measurement, order) -> np.ndarray:
+    """A number for each row: rows with the same one are neighbours in `order` and are not counted as independent."""
+    angles = np.round(measurement.geom.theta_i_deg[order, 0], 1)
+    starts = np.flatnonzero(np.diff(angles, prepend=-1.0))
+    sizes = np.diff(np.append(starts, len(order)))
+    if len(starts) > 64:  # scattered incidence: the order alone decides
+        starts, sizes = np.array([0]), np.array([len(order)])
+    each = SEGMENTS if len(starts) > 1 else int(np.clip(len(order) // 50, 4 * SEGMENTS, 256))
+    segments = np.empty(len(order), int)
+    for group, (start, size) in enumerate(zip(starts, sizes)):
+        segments[order[start : start + size]] = group * each + np.arange(size) * each // size
+    return segments
 
 
 def serial_correlation(residuals: np.ndarray, orders) -> tuple[float, float]:
@@ -79,14 +94,32 @@ def standard_errors(layout: Layout, values: dict, normal: Normal, variance: floa
     variance = variance * serial_widening(correlation)
     shared, own = normal.covariance()
     together = common_channels(residuals)
+    return _in_units(layout, values, variance * together * np.diag(shared), variance * np.einsum("cqq->cq", own))
+
+
+def errors_of_a_wrong_model(layout: Layout, values: dict, normal: Normal, misfit, segments) -> dict:
+    """Standard error of each free parameter of a model whose residuals are no noise: from what segments of neighbours pull it by.
+
+    (JᵀJ)⁻¹ Σ_segments (Jᵀr)(Jᵀr)ᵀ (JᵀJ)⁻¹, so that a few directions that carry a parameter, such as a narrow peak, tell how
+    loosely (White 1980, "A heteroskedasticity-consistent covariance matrix estimator"; by segments, Liang and Zeger 1986).
+
+    Takes  `misfit` as (r (samples, channels), j_shared, j_own) at `values`, `segments` (samples,).
+    """
+    moved, own_moved = normal.influence(*misfit)
+    variance = lambda pulls: float(np.sum(np.bincount(segments, pulls) ** 2))  # noqa: E731
+    shared = np.array([variance(column) for column in moved.T])
+    own = np.array([[variance(column) for column in channel.T] for channel in own_moved]).reshape(own_moved.shape[::2])
+    return _in_units(layout, values, shared, own)
+
+
+def _in_units(layout: Layout, values: dict, shared, own) -> dict:
+    """Standard errors from variances (p,) and (channels, q) of the coordinates."""
     errors = {}
-    for place, key in enumerate(layout.shared):
-        slope = slope_of_coordinate(layout.parameters[key], np.asarray(values[key]))
-        errors[key] = float(np.abs(slope) * sqrt(max(variance * together * shared[place, place], 0.0)))
-    for place, key in enumerate(layout.own):
-        slope = slope_of_coordinate(layout.parameters[key], np.asarray(values[key]))
-        errors[key] = np.abs(slope) * np.sqrt(np.maximum(variance * own[:, place, place], 0.0))
-    return errors
+    for keys, variances in ((layout.shared, shared), (layout.own, own.T)):
+        for key, variance in zip(keys, variances):
+            slope = slope_of_coordinate(layout.parameters[key], np.asarray(values[key]))
+            errors[key] = np.abs(slope) * np.sqrt(np.maximum(variance, 0.0))
+    return {key: float(error) if np.ndim(error) == 0 else error for key, error in errors.items()}
 
 
 def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[Finding, ...]:

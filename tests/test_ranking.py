@@ -92,7 +92,7 @@ def test_of_two_models_equally_wrong_the_difference_is_as_uncertain_as_it_says_w
     """Two laws at equal distance on either side of the truth: behind/behind_se must scatter with unit width about 0."""
     geom = synthetic.scan() if geometry == "scan" else synthetic.hemisphere(600)
     data = plastic(geom)
-    segments = ranking.segments_of(data, uncertainty.along_scans(data))
+    segments = uncertainty.segments_of(data, uncertainty.along_scans(data))
     truth = {**GGX.defaults(), **TRUTH}
     bend = fitting.ln_residuals(GGX, data, {**truth, "ggx.alpha": 0.225})
     scores = []
@@ -108,7 +108,7 @@ def test_of_two_models_equally_wrong_the_difference_is_as_uncertain_as_it_says_w
 
 def test_neighbours_that_err_together_do_not_make_a_difference_real_with_seeds_0_to_199():
     data = plastic(synthetic.scan(step=1.0))
-    segments = ranking.segments_of(data, uncertainty.along_scans(data))
+    segments = uncertainty.segments_of(data, uncertainty.along_scans(data))
     bend = fitting.ln_residuals(GGX, data, {**GGX.defaults(), **TRUTH, "ggx.alpha": 0.225})
     scores = []
     for seed in range(200):

@@ -54,18 +54,17 @@ def test_a_finer_subset_of_a_whole_table_changes_no_answer_by_more_than_its_unce
             assert np.all(np.abs(value - fine.values[name]) <= coarse.stderr[name]), name
 
 
-@pytest.mark.parametrize("name", ["paper_white", "vch_golden_yellow", "cc_ibiza_sunset"])
-def test_an_rgl_table_of_32_by_32_nodes_is_settled_on_as_a_whole(data, name):
+@pytest.mark.parametrize("name", ["paper_white", "vch_golden_yellow", "cc_ibiza_sunset", "cg_sunflower"])
+def test_an_rgl_table_is_settled_on_as_a_whole(data, name):
     table = formats.read(data / "rgl" / f"{name}_rgb.bsdf")
     assert len(fitting.prepare(table).used) == np.count_nonzero(np.any(table.usable, axis=1))
 
 
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("model", ["lambertian+ggx", "lambertian+ward", "lambertian+blinn"])
-def test_of_a_larger_rgl_table_a_finer_subset_keeps_every_answer_within_two_standard_errors(data, model, monkeypatch):
+def test_of_a_narrow_lobe_the_whole_changes_no_answer_of_a_subset_by_more_than_its_uncertainty(data, model, seed):
+    """A lobe half a degree wide, and models that are wrong about its flank: a few directions carry its width."""
     table = formats.read(data / "rgl" / "cg_sunflower_rgb.bsdf")
-    coarse = fitting.fit(models.get(model), table)
-    monkeypatch.setattr(fitting, "SETTLE_VALUES", table.brdf.size)
-    fine = fitting.fit(models.get(model), table)
-    assert len(coarse.residuals) == len(table.geom)
+    coarse, fine = (fitting.fit(models.get(model), each) for each in (sampling.subset(table, 16_000, seed), table))
     for name, stderr in coarse.stderr.items():
-        assert np.all(np.abs(coarse.values[name] - fine.values[name]) <= 2 * stderr), name
+        assert np.all(np.abs(coarse.values[name] - fine.values[name]) <= stderr), name
