@@ -74,7 +74,7 @@ class Data:
     search: Measurement  # few directions, few channels
     search_weights: np.ndarray
     orders: list  # of the rows of `settle`
-    segments: np.ndarray  # of neighbours among them
+    segments: list  # of neighbours in each order
 
 
 def prepare(measurement: Measurement, options: Options = Options()) -> Data:
@@ -90,8 +90,9 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     search = settle[thin].of_channels(channels)
     close = sampling.representative_rows(settle, NEAR_SAMPLES)
     weights, orders = weights[rows], uncertainty.orderings(settle)
+    segments = [uncertainty.segments_of(settle, orders[0]), *map(uncertainty.stretches, orders[1:])]
     return Data(
-        measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders, uncertainty.segments_of(settle, orders[0])
+        measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders, segments
     )  # fmt: skip
 
 

@@ -39,12 +39,23 @@ def segments_of(measurement: Measurement, order) -> np.ndarray:
     starts = np.flatnonzero(np.diff(angles, prepend=-1.0))
     sizes = np.diff(np.append(starts, len(order)))
     if len(starts) > 64:  # scattered incidence: the order alone decides
-        starts, sizes = np.array([0]), np.array([len(order)])
-    each = SEGMENTS if len(starts) > 1 else int(np.clip(len(order) // 50, 4 * SEGMENTS, 256))
+        return stretches(order)
+    each = SEGMENTS if len(starts) > 1 else _pieces(len(order))
     segments = np.empty(len(order), int)
     for group, (start, size) in enumerate(zip(starts, sizes)):
         segments[order[start : start + size]] = group * each + np.arange(size) * each // size
     return segments
+
+
+def stretches(order) -> np.ndarray:
+    """A number for each row: the order cut into 32 to 256 pieces of equal length."""
+    segments = np.empty(len(order), int)
+    segments[order] = np.arange(len(order)) * _pieces(len(order)) // len(order)
+    return segments
+
+
+def _pieces(count: int) -> int:
+    return int(np.clip(count // 50, 4 * SEGMENTS, 256))
 
 
 def serial_correlation(residuals: np.ndarray, orders) -> tuple[float, float]:
@@ -102,11 +113,12 @@ def errors_of_a_wrong_model(layout: Layout, values: dict, normal: Normal, misfit
 
     (JᵀJ)⁻¹ Σ_segments (Jᵀr)(Jᵀr)ᵀ (JᵀJ)⁻¹, so that a few directions that carry a parameter, such as a narrow peak, tell how
     loosely (White 1980, "A heteroskedasticity-consistent covariance matrix estimator"; by segments, Liang and Zeger 1986).
+    The largest over several ways to cut the data into segments.
 
-    Takes  `misfit` as (r (samples, channels), j_shared, j_own) at `values`, `segments` (samples,).
+    Takes  `misfit` as (r (samples, channels), j_shared, j_own) at `values`, `segments` as arrays (samples,).
     """
     moved, own_moved = normal.influence(*misfit)
-    variance = lambda pulls: float(np.sum(np.bincount(segments, pulls) ** 2))  # noqa: E731
+    variance = lambda pulls: max(float(np.sum(np.bincount(each, pulls) ** 2)) for each in segments)  # noqa: E731
     shared = np.array([variance(column) for column in moved.T])
     own = np.array([[variance(column) for column in channel.T] for channel in own_moved]).reshape(own_moved.shape[::2])
     return _in_units(layout, values, shared, own)
