@@ -64,5 +64,6 @@ def export(
             write_whole(path, content)
     if json:
         print_json(exporters.document(made.statement, surface, [str(path) for path in files]))
-    for line in (made.statement.sentence(), *made.statement.notes):
+    colour = () if surface.colour.named else (f"colour: {made.statement.colour}",)  # which tables, and the doubt where there are none
+    for line in (made.statement.sentence(), *made.statement.notes, *colour):
         note(line, quiet)

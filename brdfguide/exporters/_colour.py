@@ -77,7 +77,8 @@ def _matching():
     try:
         import colour
     except ImportError:
-        how = "CIE 1931 2° by the approximation of Wyman, Sloan and Shirley 2013 under equal-energy light"
+        how = "CIE 1931 2° by the approximation of Wyman, Sloan and Shirley 2013 under equal-energy light: "
+        how += "up to 0.045 off the CIE tables under D65, which pip install 'brdfguide[colour]' adds"
         return lambda nm: np.array([sum(_lobe(nm, *lobe) for lobe in lobes) for lobes in LOBES]), how
     table = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
     light = colour.SDS_ILLUMINANTS["D65"]

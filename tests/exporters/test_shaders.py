@@ -2,6 +2,7 @@
 
 import ctypes
 import math
+import os
 import re
 import shutil
 import subprocess
@@ -118,3 +119,30 @@ def test_osl_and_glsl_hold_the_same_functions():
     functions = lambda text: re.findall(r"^float bg_.*$", text, flags=re.M)  # noqa: E731
     assert functions(glsl) == functions(osl) and len(functions(glsl)) > 30
     assert osl.count("{") == osl.count("}") and osl.count("(") == osl.count(")")
+
+
+COMPILE = """
+import sys, bpy
+sys.path.append(bpy.__path__[0] + f"/{bpy.app.version[0]}.{bpy.app.version[1]}/scripts/addons_core")
+import _cycles
+for path in sys.argv[1:]:
+    print(bool(_cycles.osl_compile(path, path[:-3] + "oso")), path, flush=True)
+"""
+
+
+@pytest.mark.validate
+def test_osl_compiler_takes_every_shader(of, tmp_path):
+    """Open Shading Language's own compiler, as Blender carries it; the last file is wrong and must be seen to be."""
+    python = os.environ.get("BPY_PYTHON")
+    if python is None:
+        pytest.skip("BPY_PYTHON: an interpreter with the package bpy (Blender 4.5, Python 3.11), whose OSL compiler reads these exports")
+    paths = []
+    for surface in (each for name in NAMES for each in of(name)):
+        paths.append(tmp_path / f"m{len(paths)}.osl")
+        paths[-1].write_text(exporters.export("osl", surface).content)
+    (tmp_path / "wrong.osl").write_text(paths[0].read_text().replace("normalize(", "normalise("))
+    run = subprocess.run([python, "-c", COMPILE, *map(str, paths), str(tmp_path / "wrong.osl")], capture_output=True, text=True)
+    compiled = [line.split()[0] for line in run.stdout.splitlines() if line.endswith(".osl")]
+    assert len(paths) > 60 and compiled == ["True"] * len(paths) + ["False"], run.stdout + run.stderr
+    assert "normalise" in run.stdout + run.stderr
+    assert all((tmp_path / f"m{number}.oso").read_text().startswith("OpenShadingLanguage") for number in range(len(paths)))
