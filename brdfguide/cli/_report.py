@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Option
 
-from ._options import command_line
+from ._options import command_line, on_terminal, print_json
 
 PlotOption = Annotated[Path | None, Option("--plot", help="Draw the answer (png, svg or pdf).")]
 ReportOption = Annotated[Path | None, Option("--report", help="Write one page with everything (html).")]
@@ -44,7 +44,22 @@ def show_answer(plot, report, document: dict, answer, files) -> None:
         page.write(document, report, figures, command_line(), files)
 
 
-def sketch_of(ranked, measurement) -> str:
+def print_ranking(document: dict, ranked, measurement, more: str, json: bool, quiet: bool) -> None:
+    """A fit on stdout: as JSON, in colour with a sketch on a terminal, as plain columns in a pipe; `more` comes below."""
+    if json:
+        print_json(document)
+    elif on_terminal():
+        from ..report import terminal
+
+        terminal.show(document, _sketch(ranked, measurement), not quiet)
+        print(more, end="\n" if more else "")
+    else:
+        from ..report import ranking
+
+        print(ranking.ranking_text(document, notes=not quiet) + more)
+
+
+def _sketch(ranked, measurement) -> str:
     """The recommended model against the data, in braille, as wide as the terminal."""
     from shutil import get_terminal_size
 

@@ -7,8 +7,8 @@ from typer import Argument, Option
 
 from ._data import AnywayOption, ApertureOption, AveragePhiOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
-from ._options import JsonOption, NoTimingOption, QuietOption, on_terminal, print_json, progress, write_whole
-from ._report import PlotOption, ReportOption, show_ranking, sketch_of
+from ._options import JsonOption, NoTimingOption, QuietOption, progress, write_whole
+from ._report import PlotOption, ReportOption, print_ranking, show_ranking
 from ._scene import SceneOption, of_ranking
 from ._surface import ExportOption, MaxErrorOption, export_all
 
@@ -53,7 +53,7 @@ def fit(
     """Fit the candidate models to DATA and rank them, best first."""
     from .. import candidates, verdict
     from ..compare import compare
-    from ..report import document, ranking
+    from ..report import document
 
     options = fit_options(metric, weights, robust, per_channel_shape, fix, start)
     names = expressions(models)
@@ -81,14 +81,6 @@ def fit(
         show_ranking(plot, report, result, ranked, measurement, data)
     best = ranked.recommended.fit
     failed = export_all(export, best.model, best.values, measurement.channels, measurement.geom.wavelength, measurement.geom, data[0].stem, max_export_error, quiet)
-    if json:
-        print_json(result)
-    elif on_terminal():
-        from ..report import terminal
-
-        terminal.show(result, sketch_of(ranked, measurement), not quiet)
-        print(in_scene, end="\n" if in_scene else "")
-    else:
-        print(ranking.ranking_text(result, notes=not quiet) + in_scene)
+    print_ranking(result, ranked, measurement, in_scene, json, quiet)
     if failed:
         raise failed
