@@ -1,5 +1,7 @@
 """A fit's document as text: which model, how sure, what it costs, what was doubtful."""
 
+import sys
+from shutil import get_terminal_size
 from textwrap import fill
 
 from .table import columns
@@ -116,7 +118,9 @@ def notes_text(title: str, findings: list[dict]) -> str:
 
 
 def wrapped(text: str) -> str:
-    return fill(text, 100, initial_indent="  ", subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    """An indented paragraph of at most 100 columns, or of the terminal's if it is narrower."""
+    width = min(get_terminal_size().columns, 100) if sys.stdout.isatty() else 100
+    return fill(text, max(width, 40), initial_indent="  ", subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
 
 
 def _option(finding: dict) -> str:
