@@ -91,6 +91,7 @@ def markdown(rows) -> str:
             f"| {found.scene.name} | {name} | {what} | {e.mean:.2f} | {e.p95:.2f} | {e.visible:.2f} | {found.fresh.visible:.2f} "
             f"| {found.whole_time.ns:.0f} | {found.time.ns:.0f} | {saved} |"
         )
+    lines += ["", "How the numbers of the specification's worked example become the program's: [worked_example.md](worked_example.md)."]
     return "\n".join(lines) + "\n\n![whole, pruned and amplified difference](scenes.png)\n"
 
 
