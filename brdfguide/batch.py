@@ -55,7 +55,7 @@ def run(files: Iterable[Path], job: Job, folder: Path, jobs: int, progress: Call
         else:
             todo[file] = place
     if jobs > 1 and len(todo) > 1:
-        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_one_thread) as pool:
+        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
             waiting = {pool.submit(one, file, job, place): file for file, place in todo.items()}
             for done in as_completed(waiting):
                 rows[waiting[done]] = done.result()
@@ -99,9 +99,3 @@ def _before(place: Path | None) -> dict | None:
         return json.loads(place.read_text()) if place is not None and place.is_file() else None
     except ValueError:
         return None
-
-
-def _one_thread() -> None:
-    """A worker keeps to its own core."""
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ[name] = "1"

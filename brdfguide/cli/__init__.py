@@ -45,6 +45,8 @@ def main(argv: list[str] | None = None) -> None:
     """Run one command and exit: 0 answered, 1 no trustworthy answer, 2 bad usage or input, 130 interrupted."""
     argv = sys.argv[1:] if argv is None else argv
     known = catalog.names("cli")
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")  # of a linear algebra library: our matrices are small, and its threads spin while they wait
     asked = next((word for word in argv if not word.startswith("-")), None)
     signal.signal(signal.SIGINT, lambda *_: sys.exit(130))  # before Typer turns it into a 1
     app = build([asked] if asked in known and "--show-completion" not in argv else known)
