@@ -112,8 +112,9 @@ def incidence_bins(measurement: Measurement) -> tuple[np.ndarray, np.ndarray]:
 def by_theta_i(residuals, angles, places) -> dict[float, float]:
     """rms ln at each of `incidence_bins`."""
     seen = np.isfinite(residuals)
-    squares = np.bincount(places, np.sum(np.where(seen, residuals, 0.0) ** 2, axis=1), minlength=len(angles))
-    counts = np.bincount(places, seen.sum(axis=1), minlength=len(angles))
+    filled = np.where(seen, residuals, 0.0)
+    squares = np.bincount(places, np.einsum("sc,sc->s", filled, filled), minlength=len(angles))  # a sum over few channels is slow
+    counts = np.bincount(places, np.einsum("sc->s", seen, dtype=float), minlength=len(angles))
     return {float(angle): float(np.sqrt(square / count)) for angle, square, count in zip(angles, squares, counts) if count}
 
 
