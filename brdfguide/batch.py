@@ -6,7 +6,6 @@ second run does only what is missing and several runs may share a folder.
 
 import hashlib
 import json
-import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
@@ -17,6 +16,7 @@ from . import __version__, candidates, examine, formats, verdict
 from .compare import compare
 from .errors import BrdfguideError
 from .fitting import Options
+from .outputs import write_whole
 from .report import document
 
 
@@ -77,9 +77,7 @@ def one(file: Path, job: Job, place: Path | None) -> Row:
         return Row(str(file), error.exit_status, None, str(error))
     result = document.fit_document(ranked, measurement, judged)
     if place is not None:
-        partial = place.with_suffix(f".{os.getpid()}.partial")
-        partial.write_text(json.dumps(result, allow_nan=False))
-        partial.replace(place)
+        write_whole(place, json.dumps(result, allow_nan=False))
     return Row(str(file), 0, result)
 
 

@@ -27,3 +27,16 @@ def choices(kind: str, found: str, known) -> InputError:
     near = get_close_matches(found.lower(), known, n=3, cutoff=0.6)
     hint = f"did you mean {' or '.join(near)}? " if near else ""
     return InputError(f"no {kind} called '{found}'; {hint}there are: {', '.join(known)}")
+
+
+def no_such_file(path, name: str) -> InputError:
+    """The error for a file that is not there, with the nearest names in the same folder."""
+    from difflib import get_close_matches
+    from pathlib import Path
+
+    try:
+        beside = [each.name for each in Path(path).parent.iterdir()]
+    except OSError:
+        beside = []
+    near = get_close_matches(Path(path).name, beside, n=2, cutoff=0.6)
+    return InputError(f"{name}: there is no such file" + (f"; did you mean {' or '.join(near)}?" if near else ""))

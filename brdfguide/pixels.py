@@ -8,7 +8,7 @@ Half of the pixels come from the scene itself, half from the neighbourhood of ea
 so that means, percentiles and areas are those of the picture and not those of the draw (Hesterberg 1995).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import cos, pi, radians, sin
 
 import numpy as np

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from . import models
-from .errors import InputError, choices
+from .errors import InputError, choices, no_such_file
 from .geometry import WAVELENGTH_UM
 from .models import Sum
 
@@ -33,6 +33,8 @@ def read_fit(path, name: str | None = None) -> Saved:
     path = Path(path)
     try:
         document = json.loads(path.read_text())
+    except FileNotFoundError:
+        raise no_such_file(path, str(path)) from None
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror}") from None
     except ValueError as error:

@@ -10,7 +10,6 @@ from math import pi, sqrt
 
 from . import yaml_schema
 from .display import Display
-from .errors import InputError
 from .yaml_schema import Field
 
 SHAPES = ("plane", "sphere", "cylinder", "box", "arbitrary")

@@ -1,6 +1,5 @@
 """A dense table or a fitted model as a table in MERL's layout."""
 
-import json
 from pathlib import Path
 
 import numpy as np

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import yaml
 
-from .errors import InputError
+from .errors import InputError, no_such_file
 
 MOST_BYTES = 65536  # ours: the largest sensible description is a few kilobytes
 MOST_DEPTH = 12
@@ -99,6 +99,8 @@ def _text(path, name: str) -> str:
         else:
             with Path(path).open("rb") as stream:
                 raw = stream.read(MOST_BYTES + 1)
+    except FileNotFoundError:
+        raise no_such_file(path, name) from None
     except OSError as error:
         raise InputError(f"{name}: cannot read: {error.strerror}") from None
     if len(raw) > MOST_BYTES:

@@ -17,6 +17,7 @@ FLOORS = tuple(
         errors
         geometry
         material
+        outputs
         roughness
         shelf
         special

@@ -127,7 +127,7 @@ def test_two_surfaces_stand_side_by_side_with_their_difference(tmp_path):
         (("ward", "--light", "below"), "no place for the sun called 'below'"),
         (("ward", "--size", "9"), "--size 9: a picture has 64 to 2048 pixels"),
         (("ward", "-o", "a.jpg"), "a.jpg: a preview is a .png"),
-        (("nowhere.json",), "cannot read nowhere.json"),
+        (("nowhere.json",), "nowhere.json: there is no such file"),
     ],
 )
 def test_what_cannot_be_shown_is_refused_in_a_sentence(words, sentence, tmp_path):

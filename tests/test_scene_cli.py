@@ -46,7 +46,7 @@ def test_recommend_takes_a_scene_too():
 
 @pytest.mark.parametrize("command", [FIT[:-1], ("recommend", "gloss-plastic")], ids=lambda words: words[0])
 def test_a_missing_scene_is_one_sentence(command):
-    assert run(*command, "--scene", "nowhere.yaml", status=2).stderr.strip() == "brdfguide: nowhere.yaml: cannot read: No such file or directory"
+    assert run(*command, "--scene", "nowhere.yaml", status=2).stderr.strip() == "brdfguide: nowhere.yaml: there is no such file"
 
 
 def test_without_timing_no_clock_decides_nor_speaks(tmp_path):

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from typer import Option
 
-from ..errors import InputError
+from ..outputs import picture_kind, writable
 
 JsonOption = Annotated[bool, Option("--json", help="One JSON object on stdout.")]
 QuietOption = Annotated[bool, Option("--quiet", "-q", help="No notes on stderr.")]
@@ -49,21 +49,16 @@ def on_terminal(stream=None) -> bool:
     )
 
 
-def write_whole(path: Path, content: bytes | str, *, force: bool = True) -> None:
-    """Write `path` whole or not at all. Raises InputError where it may not or cannot be written."""
-    path = Path(path)
-    if path.exists() and not force:
-        raise InputError(f"{path} exists; --force replaces it")
-    if path.is_dir():
-        raise InputError(f"cannot write {path}: it is a folder")
-    data = content.encode() if isinstance(content, str) else content
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        partial.write_bytes(data)
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise InputError(f"cannot write {path}: {error.strerror}") from None
+def output_file(path: Path | None) -> Path | None:
+    """A callback: refuses a file that could not be written before anything is computed for it."""
+    return path if path is None or str(path) == "-" else writable(path)
+
+
+def picture_file(path: Path | None) -> Path | None:
+    """The same for a picture."""
+    if path is not None:
+        picture_kind(path)
+    return output_file(path)
 
 
 @contextmanager

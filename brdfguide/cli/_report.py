@@ -5,10 +5,19 @@ from typing import Annotated
 
 from typer import Option
 
-from ._options import command_line, on_terminal, print_json
+from ..errors import InputError
+from ._options import command_line, on_terminal, output_file, picture_file, print_json
 
-PlotOption = Annotated[Path | None, Option("--plot", help="Draw the answer (png, svg or pdf).")]
-ReportOption = Annotated[Path | None, Option("--report", help="Write one page with everything (html).")]
+PlotOption = Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw the answer (png, svg or pdf).")]
+
+
+def _page_file(path: Path | None) -> Path | None:
+    if path is not None and path.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"{path}: a page is a .html")
+    return output_file(path)
+
+
+ReportOption = Annotated[Path | None, Option("--report", callback=_page_file, help="Write one page with everything (html).")]
 
 
 def show_ranking(plot, report, document: dict, ranked, measurement, files) -> None:

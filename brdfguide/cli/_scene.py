@@ -6,21 +6,30 @@ from typer import Option
 
 from ._options import progress
 
-SceneOption = Annotated[str | None, Option("--scene", help="A scene's YAML, or `default`: leave out what it does not need.")]
 STEPS = 5
 
 
-def prune(scene: str, model, values, *, timing: bool, data=None, quiet: bool = False):
-    """The model without what the scene in the file `scene` does not need."""
-    from .. import pruning
+def _scene(where: str | None):
+    """A callback: the scene in a file, read before anything is computed for it."""
+    if where is None:
+        return None
     from .. import scene as scenes
 
-    where = scenes.DEFAULT if scene == "default" else scenes.read_scene(scene)
+    return scenes.DEFAULT if where == "default" else scenes.read_scene(where)
+
+
+SceneOption = Annotated[str | None, Option("--scene", callback=_scene, help="A scene's YAML, or `default`: leave out what it does not need.")]
+
+
+def prune(scene, model, values, *, timing: bool, data=None, quiet: bool = False):
+    """The model without what the scene does not need."""
+    from .. import pruning
+
     with progress(STEPS, quiet) as tell:
-        return pruning.prune(model, values, where, geom_of_data=data, progress=tell, timing=timing)
+        return pruning.prune(model, values, scene, geom_of_data=data, progress=tell, timing=timing)
 
 
-def of_ranking(scene: str, ranked, measurement, result: dict, timing: bool, quiet: bool) -> str:
+def of_ranking(scene, ranked, measurement, result: dict, timing: bool, quiet: bool) -> str:
     """The text about the recommended fit in a scene; `result` gets the same as `scene` and `left_out`."""
     from ..report import pruned
 
@@ -30,7 +39,7 @@ def of_ranking(scene: str, ranked, measurement, result: dict, timing: bool, quie
     return "\n\n" + pruned.text(result["scene"], not quiet)
 
 
-def of_answer(scene: str, answer, document: dict, timing: bool, quiet: bool) -> str:
+def of_answer(scene, answer, document: dict, timing: bool, quiet: bool) -> str:
     """The same about the first candidate of a recommendation."""
     if not answer.candidates:
         return ""

@@ -42,7 +42,8 @@ def export_all(specs, model, values, channels, wavelength, geom, name, most, qui
     Files that the user named are replaced, as pictures are.
     """
     from .. import exporters
-    from ._options import command_line, note, write_whole
+    from ..outputs import write_whole
+    from ._options import command_line, note
 
     try:
         for spec in specs or ():

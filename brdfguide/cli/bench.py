@@ -8,7 +8,7 @@ from typer import Argument, Option
 from ..errors import InputError
 from ._data import read_examined
 from ._fitting import ModelsOption, expressions
-from ._options import JsonOption, QuietOption, print_json, progress
+from ._options import JsonOption, QuietOption, picture_file, print_json, progress
 
 EXAMPLES = "Examples: brdfguide bench -m ggx,he-torrance | brdfguide bench examples/rough_plastic.csv --plot front.svg"
 
@@ -16,7 +16,7 @@ EXAMPLES = "Examples: brdfguide bench -m ggx,he-torrance | brdfguide bench examp
 def bench(
     data: Annotated[Path | None, Argument(help="Measured data to be wrong about; none: time alone.")] = None,
     models: ModelsOption = None,
-    plot: Annotated[Path | None, Option("--plot", help="Draw error against run time (png, svg or pdf).")] = None,
+    plot: Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw error against run time (png, svg or pdf).")] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:

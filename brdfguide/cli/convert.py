@@ -7,7 +7,7 @@ from typer import Argument, Option
 
 from ..errors import InputError
 from ._data import AveragePhiOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read
-from ._options import ForceOption, QuietOption, note, write_whole
+from ._options import ForceOption, QuietOption, note
 
 EXAMPLES = "Examples: brdfguide convert paint.brdf paint.csv | brdfguide convert fit.json paint.binary"
 
@@ -28,12 +28,12 @@ def convert(
     quiet: QuietOption = False,
 ) -> None:
     """Convert DATA to plain CSV with its conventions in the header, or a table or a fitted model to MERL .binary."""
-    from .. import tabulated
+    from .. import outputs, tabulated
 
     kind = out.suffix.lower()
     if kind not in (".csv", ".binary"):
         raise InputError(f"{out}: wanted a .csv or a .binary file to write")
-    if out.exists() and not force:
+    if outputs.writable(out).exists() and not force:
         raise InputError(f"{out} exists; --force replaces it")
     if kind == ".binary":
         content, notes = tabulated.merl(data, model, average_phi_i=average_phi_i)
@@ -42,6 +42,6 @@ def convert(
 
         measurement = read(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, average_phi_i=average_phi_i)
         content, notes = "\n".join(table.written(measurement)) + "\n", [finding.text for finding in measurement.findings]
-    write_whole(out, content, force=force)
+    outputs.write_whole(out, content, force=force)
     for text in notes:
         note(text, quiet)

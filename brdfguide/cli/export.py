@@ -6,7 +6,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 from ..errors import InputError
-from ._options import ForceOption, JsonOption, QuietOption, command_line, note, print_json, write_whole
+from ._options import ForceOption, JsonOption, QuietOption, command_line, note, output_file, print_json
 from ._surface import MaxErrorOption
 
 EXAMPLES = "Examples: brdfguide export fit.json --to mitsuba -o paint.xml --max-export-error 0.1 | brdfguide export porcelain --to rgl -o porcelain.bsdf"
@@ -15,7 +15,7 @@ EXAMPLES = "Examples: brdfguide export fit.json --to mitsuba -o paint.xml --max-
 def export(
     words: Annotated[list[str] | None, Argument(metavar="[INPUT] [NAME=VALUE]...", help="A fit's JSON, a material, or parameters for --model; R,G,B after = for colours.")] = None,
     to: Annotated[str | None, Option("--to", help="Target; without one: the list of targets.")] = None,
-    output: Annotated[Path | None, Option("--output", "-o", help="File to write; - is standard output.")] = None,
+    output: Annotated[Path | None, Option("--output", "-o", callback=output_file, help="File to write; - is standard output.")] = None,
     model: Annotated[str | None, Option("--model", help="A model by name; with an input: which of its candidates.")] = None,
     channel: Annotated[str | None, Option("--channel", help="One channel alone, as grey.")] = None,
     data: Annotated[Path | None, Option("--data", help="Judge and refit over this file's directions.")] = None,
@@ -26,8 +26,7 @@ def export(
     quiet: QuietOption = False,
 ) -> None:
     """Write a model for a renderer, and say what that costs: exact, refit or lossy, with its rms ln error."""
-    from .. import exporters
-    from ._options import command_line
+    from .. import exporters, outputs
     from ._surface import read_surface
 
     if to is None:
@@ -61,7 +60,7 @@ def export(
             if path.is_file() and not force:
                 raise InputError(f"{path} exists; --force replaces it")
         for path, content in reversed(files.items()):
-            write_whole(path, content)
+            outputs.write_whole(path, content)
     if json:
         print_json(exporters.document(made.statement, surface, [str(path) for path in files]))
     colour = () if surface.colour.named else (f"colour: {made.statement.colour}",)  # which tables, and the doubt where there are none

@@ -21,12 +21,11 @@ def figures(
 ) -> None:
     """Redraw the guide's figures from this program and from samples, synthetic unless you give your own."""
     from .. import formats
-    from ..errors import choices
+    from ..outputs import picture_kind
     from ..report import figures as drawing
     from ..report import style
 
-    if kind not in style.SUFFIXES:
-        raise choices("kind of picture", kind, style.SUFFIXES)
+    picture_kind(f"figure.{kind}")
     numbers = [_number(word, drawing.TITLES) for word in only.split(",")] if only else list(drawing.TITLES)
     own = dict(_assignment(word, drawing.SAMPLES) for word in data or ())
     try:

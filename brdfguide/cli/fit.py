@@ -7,7 +7,7 @@ from typer import Argument, Option
 
 from ._data import AnywayOption, ApertureOption, AveragePhiOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read_examined, reading_options
 from ._fitting import FixOption, KindOption, MetricOption, ModelsOption, PerChannelOption, RobustOption, StartOption, WeightsOption, expressions, fit_options
-from ._options import JsonOption, NoTimingOption, QuietOption, progress, write_whole
+from ._options import JsonOption, NoTimingOption, QuietOption, output_file, progress
 from ._report import PlotOption, ReportOption, print_ranking, show_ranking
 from ._scene import SceneOption, of_ranking
 from ._surface import ExportOption, MaxErrorOption, export_all
@@ -40,7 +40,7 @@ def fit(
     scene: SceneOption = None,
     plot: PlotOption = None,
     report: ReportOption = None,
-    residuals: Annotated[Path | None, Option("--residuals", help="Write ln(model/data) of the recommended model as CSV.")] = None,
+    residuals: Annotated[Path | None, Option("--residuals", callback=output_file, help="Write ln(model/data) of the recommended model as CSV.")] = None,
     next_: Annotated[bool, Option("--next", help="Name the directions where one more measurement would tell most.")] = False,
     jobs: Annotated[int, Option("--jobs", help="Processes for several files.", rich_help_panel=MANY)] = 1,
     out: Annotated[Path | None, Option("--out", help="Folder for an answer per file; run again to resume.", rich_help_panel=MANY)] = None,
@@ -76,6 +76,8 @@ def fit(
         proposed = propose(ranked, measurement)
         result["next"], in_scene = document.next_block(proposed), f"{in_scene}\n\n{proposed.text}"
     if residuals:
+        from ..outputs import write_whole
+
         write_whole(residuals, document.residuals_csv(ranked.recommended.fit, measurement))
     if plot or report:
         show_ranking(plot, report, result, ranked, measurement, data)

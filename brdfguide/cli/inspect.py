@@ -6,7 +6,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 from ._data import AveragePhiOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read
-from ._options import JsonOption, print_json
+from ._options import JsonOption, picture_file, print_json
 
 EXAMPLES = "Examples: brdfguide inspect run.csv --plot run.png | brdfguide inspect gold-paint.binary --json"
 
@@ -21,7 +21,7 @@ def inspect(
     wavelength: WavelengthOption = None,
     in_plane: InPlaneOption = False,
     theta_max: ThetaMaxOption = None,
-    plot: Annotated[Path | None, Option("--plot", help="Draw coverage, values, reciprocity and energy (png, svg or pdf).")] = None,
+    plot: Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw coverage, values, reciprocity and energy (png, svg or pdf).")] = None,
     json: JsonOption = False,
 ) -> None:
     """Say what a data file is: format, coverage, quantity, conventions, reciprocity, energy, gaps, spikes, noise."""

@@ -25,6 +25,7 @@ def preview(
     """Render a surface on a sphere and a bent sheet under a small sun and a sky with a horizon, in linear light."""
     from .. import preview as renderer
     from ..errors import choices
+    from ..outputs import writable
     from ..report import picture, style
     from ._surface import named_surface
 
@@ -32,7 +33,7 @@ def preview(
         raise choices("place for the sun", light, renderer.LIGHTS_DEG)
     if not 64 <= size <= 2048:
         raise InputError(f"--size {size}: a picture has 64 to 2048 pixels")
-    if output.suffix.lower() != ".png":
+    if writable(output).suffix.lower() != ".png":
         raise InputError(f"{output}: a preview is a .png")
     surfaces = [named_surface(words) for words in (surface, *(compare or ()))]
     images = [renderer.render(each, size, light, _progress(each.name, quiet)) for each in surfaces]

@@ -8,7 +8,7 @@ from typer import Option
 
 from ..report import emergence
 from ..roughness import DISTANCE_MM, PUPIL_MM, WAVELENGTH
-from ._options import JsonOption, QuietOption, note
+from ._options import JsonOption, QuietOption, note, picture_file
 
 EXAMPLES = "Examples: brdfguide roughness --angle 80 --slope 0.1 | brdfguide roughness --angle 75 --tau-um 5 --plot figure14.png"
 
@@ -24,7 +24,7 @@ def roughness(
     never: Annotated[bool, Option("--never", help="No emergence was seen, up to --angle (85): a lower bound.")] = False,
     contour: Annotated[bool, Option("--contour", help="The whole contour as well.")] = False,
     batch: Annotated[str | None, Option("--batch", metavar="FILE", help="One request a line, `80` or `angle=80 slope=0.2`; - reads stdin.")] = None,
-    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="The report's Figure 14 with the answer on it, as .png, .svg or .pdf.")] = None,
+    plot: Annotated[Path | None, Option("--plot", metavar="FILE", callback=picture_file, help="The report's Figure 14 with the answer on it, as .png, .svg or .pdf.")] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..geometry import Geometry
 from ..optics import fresnel
-from . import _laws, _smooth
+from . import _laws
 from ._base import Export, Exporter, Surface, identifier, refuse_mirror
 from ._choice import choose, fresnel_index, has_body, has_lobe, what_is_lost
 from ._materialx import colour3, document, material, real

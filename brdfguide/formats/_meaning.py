@@ -10,7 +10,7 @@ from .. import conventions
 from ..errors import InputError, choices
 from ..measurement import Finding, Measurement
 from . import _columns, _derived
-from ._base import RGB_UM, XYZ_UM, Format, Options, Source, check_zenith, degrees, measurement, nominal_colours, wavelength_in
+from ._base import RGB_UM, XYZ_UM, Options, Source, check_zenith, degrees, measurement, nominal_colours, wavelength_in
 from ._pivot import pivoted
 from ._sheet import Sheet
 from ._sides import on_its_side

@@ -4,7 +4,7 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import InputError, no_such_file
 
 MAGIC = {b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"BZh": "bzip2"}
 PIECE, PACKED_PIECE = 2**20, 2**16
@@ -24,7 +24,7 @@ def stream(path, name: str):
         with path.open("rb") as raw:
             yield _Unpacked(raw, name)
     except FileNotFoundError:
-        raise InputError(f"{name}: there is no such file{_nearest(path)}") from None
+        raise no_such_file(path, name) from None
     except OSError as error:
         raise InputError(f"{name}: cannot be read: {error.strerror or error}") from None
 
@@ -122,15 +122,3 @@ def _machine(kind: str | None):
 
         return bz2.BZ2Decompressor()
     return None
-
-
-def _nearest(path: Path) -> str:
-    """The nearest file names in the same folder, for one that is not there."""
-    from difflib import get_close_matches
-
-    try:
-        beside = [each.name for each in Path(path).parent.iterdir()]
-    except OSError:
-        return ""
-    near = get_close_matches(Path(path).name, beside, n=2, cutoff=0.6)
-    return f"; did you mean {' or '.join(near)}?" if near else ""

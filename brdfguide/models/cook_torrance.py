@@ -10,7 +10,6 @@ lobe is four times too bright. The groove factor has a crease where its minimum 
 Source: Cook and Torrance 1982, "A reflectance model for computer graphics".
 """
 
-from math import pi
 
 import numpy as np
 

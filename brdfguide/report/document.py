@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..fitting import Fit
-from ..measurement import Finding, Measurement
+from ..measurement import Measurement
 from ..next_measurement import Next
 from ..ranking import Ranking, Row
 from .data import data_block, finding

@@ -42,7 +42,6 @@ def figure14(result: dict):
 
 def draw(result: dict, path: Path) -> None:
     """Write the figure into `path`, a .png, .svg or .pdf file."""
-    style.suffix(path)
     style.save(figure14(result), path)
 
 

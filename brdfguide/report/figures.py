@@ -142,7 +142,6 @@ def normal_reflectance():
 
 def _emergence(origin: str):
     """Figure 14, with the report's worked example where the criterion puts it: on the contour of 75 degrees."""
-    from . import emergence, emergence_plot
 
     fig = emergence_plot.figure14(emergence.document(angle=75.0, slope=0.1))
     key = fig.get_supxlabel()

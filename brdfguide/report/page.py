@@ -4,7 +4,6 @@ Reads the documents of `--json` and nothing else, so that page, terminal and JSO
 """
 
 import json
-import os
 import platform
 from hashlib import sha256
 from html import escape
@@ -13,7 +12,7 @@ from math import exp
 from pathlib import Path
 
 from .. import __version__
-from ..errors import InputError
+from ..outputs import write_whole
 from . import sheet
 from .plain import plain
 
@@ -22,14 +21,7 @@ PACKAGES = ("numpy", "matplotlib", "pyyaml")
 
 def write(document: dict, path, figures=(), command: str = "", files=()) -> None:
     """Write the page whole or not at all. `figures` are (SVG or PNG file, caption); `files` are hashed for the last section. Raises InputError where it cannot be written."""
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        partial.write_text(html(document, figures, command, files), encoding="utf-8")
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise InputError(f"cannot write {path}: {error.strerror}") from None
+    write_whole(path, html(document, figures, command, files))
 
 
 def html(document: dict, figures=(), command: str = "", files=()) -> str:

@@ -13,7 +13,6 @@ from .lines import LEAST_POINTS, MOST_LINES, NOMINAL_UM, Line, chosen, curve, li
 
 def fit(ranking, measurement: Measurement, path) -> None:
     """Draw the ranking into `path`, a .png, .svg or .pdf file."""
-    style.suffix(path)
     with style.look():
         fig = style.figure(180, 172)
         above, below = fig.subfigures(2, 1, height_ratios=(1.75, 1))
@@ -70,7 +69,6 @@ def timed_lines(ranking, timing: dict) -> list[Line]:
 
 def write_cost(lines: list[Line], path) -> None:
     """Draw error against run time into `path`, a .png, .svg or .pdf file."""
-    style.suffix(path)
     with style.look():
         fig = style.figure(180, 110)
         _cost(fig, lines)

@@ -4,7 +4,6 @@ Colours are Okabe and Ito's, told apart by colour-blind readers; each comes with
 a print in grey still works. No pyplot and no global state: figures are made and saved inside `look()`.
 """
 
-import os
 from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
@@ -12,7 +11,7 @@ from textwrap import wrap
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from ..errors import InputError, choices
+from ..outputs import picture_kind, write_whole
 
 INK = "#1f2328"  # text, axes and data; the report page turns it over in the dark
 RULE = "#c9ced6"  # what stands behind the data
@@ -20,7 +19,6 @@ PAPER = "#ffffff"
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8A6D3B", "#777777")
 DASHES = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (3, 1.2)), "-", (0, (5, 1.6)), (0, (1.2, 1.2)))
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
-SUFFIXES = ("png", "svg", "pdf")
 DOTS_PER_INCH = 200
 
 RC = {
@@ -60,21 +58,6 @@ def render(fig: Figure, kind: str = "svg") -> bytes:
     return out.getvalue()
 
 
-def suffix(path: Path) -> str:
-    """What kind of picture a path asks for. Raises InputError for one that is not drawn."""
-    kind = Path(path).suffix.lower().removeprefix(".")
-    if kind not in SUFFIXES:
-        raise choices("kind of picture", kind or Path(path).name, SUFFIXES)
-    return kind
-
-
 def save(fig: Figure, path: Path) -> None:
     """Write the figure whole or not at all; an old picture is replaced. Raises InputError where it cannot be written."""
-    path, content = Path(path), render(fig, suffix(path))
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
-    try:
-        partial.write_bytes(content)
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise InputError(f"cannot write {path}: {error.strerror}") from None
+    write_whole(path, render(fig, picture_kind(path)))

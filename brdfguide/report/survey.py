@@ -16,7 +16,6 @@ MOST_SCANS = 6
 
 def draw(measurement: Measurement, spiky, pairs, level, path, title: str) -> None:
     """Five panels into `path`. `pairs` as from `reciprocity.pairs`, `level` as from `reflectance.measured`; either may be None."""
-    style.suffix(path)
     with style.look():
         fig = style.figure(180, 132)
         grid = fig.add_gridspec(2, 3, height_ratios=(1, 1.08))

@@ -1,6 +1,6 @@
 """RGL tables: our evaluation against one written again, number by number, from the description; and the container's errors."""
 
-from math import atan2, cos, floor, pi, sin, sqrt
+from math import atan2, floor, pi, sqrt
 
 import numpy as np
 import pytest

@@ -6,7 +6,7 @@
 from math import log10
 
 import numpy as np
-from mpmath import cos, exp, log, mp, mpf, pi, power, radians, sin, sqrt
+from mpmath import cos, exp, log, mp, mpf, pi, power, sin, sqrt
 
 from . import textbook
 from .textbook import Pair, fresnel

@@ -5,11 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from brdfguide import models
+from brdfguide import models, outputs
 from brdfguide.errors import InputError
 from brdfguide.geometry import Geometry, in_plane, rows
 from brdfguide.measurement import Measurement
-from brdfguide.report import plot, style
+from brdfguide.report import plot
 
 TRUE = {"lambertian.albedo": np.array([0.4, 0.5]), "ward.rho_s": np.array([0.1, 0.1]), "ward.alpha": 0.2}
 
@@ -33,7 +33,7 @@ def ranking(times=True):
     return SimpleNamespace(rows=rows_)
 
 
-@pytest.mark.parametrize("suffix", style.SUFFIXES)
+@pytest.mark.parametrize("suffix", outputs.PICTURES)
 def test_a_figure_is_the_same_file_each_time(tmp_path, suffix):
     first, second = tmp_path / f"a.{suffix}", tmp_path / f"b.{suffix}"
     plot.fit(ranking(), scan(), first)
