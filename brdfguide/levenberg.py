@@ -124,7 +124,8 @@ def minimise(
         if expected <= 0:  # a bound cut the step so that it climbs: a shorter one will not
             damping, grow = damping * grow, grow * 2
             continue
-        r, *slopes = residuals(trial, own_trial, True)  # most steps are taken, and then need the slopes
+        hopeful = grow == 2.0  # the last step was taken; so will be this one, most likely, and then needs the slopes
+        r, *slopes = residuals(trial, own_trial, True) if hopeful else (residuals(trial, own_trial, False),)
         evaluations += 1
         cost_trial = _sum_of_squares(r)
         gain = (cost - cost_trial) / expected
@@ -133,6 +134,8 @@ def minimise(
             converged = expected < tolerance * cost and gain > 0.1 and damping < 1.0
             shared, own, cost = trial, own_trial, cost_trial
             damping, grow = damping * max(1 / 3, 1 - (2 * gain - 1) ** 3), 2.0
+            if not hopeful:
+                r, *slopes = residuals(shared, own, True)
             normal, g_shared, g_own = _normal(r, *slopes)
             converged = converged or cost == 0
         else:
