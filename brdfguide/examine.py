@@ -24,9 +24,9 @@ def examine(measurement: Measurement) -> tuple[Finding, ...]:
         text = "no value is positive: there is nothing to fit"
         return (Finding("no-usable-values", text, "error", numbers=(("values", measurement.brdf.size),)),)
     looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
-    spiky = spikes(looked_at)
-    found = [_coverage(measurement), *_reach(looked_at), *_side(looked_at), *quantity.findings(looked_at, reflectance.measured(measurement, spiky if looked_at is measurement else None))]
-    found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(looked_at), *_marks(looked_at), *_spikes(looked_at, spiky), *_edges(looked_at), *_noise(looked_at)]
+    spiky = spikes(measurement)
+    found = [_coverage(measurement), *_reach(looked_at), *_side(looked_at), *quantity.findings(looked_at, reflectance.measured(measurement, spiky))]
+    found += [*_retro(looked_at), *_rotation(looked_at), *_gaps(measurement), *_marks(measurement), *_spikes(spiky), *_edges(measurement), *_noise(measurement)]
     return tuple(found)
 
 
@@ -79,8 +79,9 @@ def _settled(measurement: Measurement, anyway: bool):
 def drawn(measurement: Measurement):
     """What the picture of an inspection shows: the directions, their spikes, exchanged pairs, reflectance."""
     looked_at = measurement if len(measurement.geom) <= LARGE else sampling.subset(measurement, LARGE // 4)
-    spiky = spikes(looked_at)
-    return looked_at, spiky, reciprocity.pairs(looked_at), reflectance.measured(measurement, spiky if looked_at is measurement else None)
+    spiky = spikes(measurement)
+    shown = spiky if looked_at is measurement else np.zeros(len(looked_at.geom), bool)
+    return looked_at, shown, reciprocity.pairs(looked_at), reflectance.measured(measurement, spiky)
 
 
 def outside(findings) -> tuple[Finding, ...]:
@@ -229,7 +230,7 @@ def _marks(m: Measurement):
         yield Finding("negative-values", text, "warning" if negative > 0.02 * m.brdf.size else "note", numbers=(("values", negative),))
 
 
-def _spikes(m: Measurement, spiky):
+def _spikes(spiky):
     count = int(np.count_nonzero(spiky))
     if count:
         text = f"{count} samples at the mirror direction stand alone above their surroundings: an ideal mirror seen through the instrument"

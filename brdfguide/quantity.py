@@ -25,7 +25,7 @@ def findings(m: Measurement, level):
         text = "the coverage does not tell the hemispherical reflectance: a factor of pi could not be noticed"
         yield Finding("energy-untold", text, option="--quantity")
         return
-    most, least = float(np.max(level.values)), float(np.median(level.values))
+    most, least = float(np.max(level.values)), float(np.median(level.least))
     bound = "at least " if level.how == "plane" else ""
     numbers = tuple((f"at_{angle:g}_deg", value) for angle, value in zip(level.theta_i_deg, level.values))
     text = f"hemispherical reflectance {bound}{min(level.values):.3g}..{most:.3g} within {level.to_deg:.0f} degrees, brightest channel"

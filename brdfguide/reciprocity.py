@@ -14,6 +14,7 @@ from .measurement import Measurement
 NEAR_DEG = 3.0  # how far apart a direction and the exchanged one may lie
 LEVER = 0.15  # least |ln (cos theta_r / cos theta_i)| that says something about the power
 MOST = 1200  # directions compared
+STEEP = 0.3  # change of ln f over the distance between exchanged directions beyond which they tell nothing
 STEADY = 3.0  # |ln ratio| beyond which a peak was met by its flank
 UNTOUCHED = 0.2  # power of the cosines that counts as none
 
@@ -72,10 +73,18 @@ def _exchanged(measurement: Measurement, seed: int):
     if len(rows) < 12 or len(geom) > 200_000:
         return None
     here = rows if len(rows) <= MOST else rows[sorted(Random(seed).sample(range(len(rows)), MOST))]
-    there, apart = _nearest(_places(geom.swapped()[here]), _places(geom[rows]))
-    there = rows[there]
-    close = (apart < np.radians(NEAR_DEG)) & (there != here)
-    return (here[close], there[close]) if np.count_nonzero(close) >= 12 else None
+    places = _places(geom[rows])
+    there, apart = _nearest(_places(geom.swapped()[here]), places)
+    beside, distance = _nearest(places[there], places, there)
+    close = (apart < np.radians(NEAR_DEG)) & (rows[there] != here)
+    close &= _change(measurement, rows[there], rows[beside]) * apart < STEEP * distance
+    return (here[close], rows[there][close]) if np.count_nonzero(close) >= 12 else None
+
+
+def _change(measurement: Measurement, here, there) -> np.ndarray:
+    """|ln (value / other value)|, (pairs,), of the channel in which it is largest."""
+    _, ratio = _compared(measurement, here, there)
+    return np.max(np.abs(np.where(np.isfinite(ratio), ratio, 0.0)), axis=1)
 
 
 def _compared(measurement: Measurement, here, there):
@@ -130,13 +139,16 @@ def _places(geom) -> np.ndarray:
     return np.stack([sin_i, geom.cos_i[:, 0], sin_r * np.cos(phi), sin_r * np.abs(np.sin(phi)), geom.cos_r[:, 0]], axis=1)
 
 
-def _nearest(points, among):
-    """Index of the nearest of `among` for each of `points`, and the distance; in blocks, so that memory stays small."""
+def _nearest(points, among, but=None):
+    """Index of the nearest of `among` for each of `points`, and the distance; never that of `but`. In blocks, so that memory stays small."""
     index = np.empty(len(points), int)
     # single precision finds the place, to some 0.02 degrees; the distance is then formed exactly
     rough = np.concatenate([np.sum(among**2, axis=1, keepdims=True), among], axis=1).astype(np.float32).T
     wanted = np.concatenate([np.ones((len(points), 1)), -2 * points], axis=1).astype(np.float32)
     for start in range(0, len(points), 512):
-        index[start : start + 512] = np.argmin(wanted[start : start + 512] @ rough, axis=1)
+        apart = wanted[start : start + 512] @ rough
+        if but is not None:
+            apart[np.arange(len(apart)), but[start : start + 512]] = np.inf
+        index[start : start + 512] = np.argmin(apart, axis=1)
     distance = np.sqrt(np.sum((points - among[index]) ** 2, axis=1))
     return index, distance

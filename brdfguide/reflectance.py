@@ -18,6 +18,7 @@ class Reflectance:
 
     theta_i_deg: tuple[float, ...]
     values: tuple[float, ...]
+    least: tuple[float, ...]  # what they are at least, whatever the values do between the samples
     to_deg: float
     how: str  # hemisphere: integrated; plane: the least that in-plane data allow
 
@@ -43,7 +44,7 @@ def measured(measurement: Measurement, without=None) -> Reflectance | None:
         if value is not None:
             found[angle] = value
             limits.append(reach)
-    return Reflectance(tuple(found), tuple(found.values()), float(np.median(limits)), how) if found else None
+    return Reflectance(tuple(found), *zip(*found.values()), float(np.median(limits)), how) if found else None
 
 
 def _incidences(measurement: Measurement, rows):
@@ -76,11 +77,11 @@ def _of_half_difference_cells(measurement: Measurement) -> Reflectance | None:
         band = np.abs(theta_i - angle) < 1.5
         if np.count_nonzero(band) > 500:
             found[float(angle)] = float(np.pi * np.sin(np.radians(80)) ** 2 * np.average(value[band], weights=weight[band]))
-    return Reflectance(tuple(found), tuple(found.values()), 80.0, "hemisphere") if found else None
+    return Reflectance(tuple(found), tuple(found.values()), tuple(found.values()), 80.0, "hemisphere") if found else None
 
 
-def _of_hemisphere(geom, level, reach: float) -> float | None:
-    """Integral of f cos over the directions within `reach` [deg]; None where less than four azimuths were measured."""
+def _of_hemisphere(geom, level, reach: float) -> tuple[float, float] | None:
+    """Integral of f cos over the directions within `reach` [deg], and what it is at least; None where less than four azimuths were measured."""
     phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))
     top = np.sin(np.radians(reach)) ** 2
     if len(np.unique(np.round(np.degrees(phi) / 10))) < 4:
@@ -89,10 +90,11 @@ def _of_hemisphere(geom, level, reach: float) -> float | None:
         order = np.argsort(geom.sin_r[:, 0])  # light along the normal: the same all around
         share = (np.arange(1000) + 0.5) / 1000
         fine = np.interp(np.sqrt(top) * share**3, geom.sin_r[order, 0], level[order])
-        return float(np.average(np.exp(fine), weights=share**5) * np.pi * top)
+        floor = np.interp(np.sqrt(top) * share**3, geom.sin_r[order, 0], _no_higher_than_neighbours(level[order]))
+        return tuple(float(np.average(np.exp(each), weights=share**5) * np.pi * top) for each in (fine, floor))
     places = np.stack([geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi)], axis=1)
     nodes, areas = _about_the_mirror(min(float(geom.sin_i[0, 0]), 0.98 * np.sqrt(top)), np.sqrt(top))
-    return float(np.exp(_interpolated(nodes, places, level)) @ areas * np.pi * top)
+    return tuple(float(np.exp(each) @ areas * np.pi * top) for each in _interpolated(nodes, places, level))
 
 
 def _about_the_mirror(distance: float, radius: float):
@@ -106,9 +108,15 @@ def _about_the_mirror(distance: float, radius: float):
     return nodes, areas.ravel() / areas.sum()
 
 
-def _interpolated(nodes, places, level) -> np.ndarray:
-    """A plane through the nearest samples in ln f, kept within what they span."""
-    values = np.empty(len(nodes))
+def _no_higher_than_neighbours(level) -> np.ndarray:
+    """Each value of a scan, or the higher of its neighbours where it stands above both."""
+    sides = np.r_[-np.inf, level[:-1]], np.r_[level[1:], -np.inf]
+    return np.minimum(level, np.maximum(*sides))
+
+
+def _interpolated(nodes, places, level):
+    """A plane through the nearest samples in ln f, kept within what they span; and the lowest of the four nearest."""
+    values, lowest = np.empty(len(nodes)), np.empty(len(nodes))
     count = min(NEIGHBOURS, len(places))
     for start in range(0, len(nodes), 256):
         block = nodes[start : start + 256]
@@ -123,10 +131,12 @@ def _interpolated(nodes, places, level) -> np.ndarray:
         right = np.einsum("nki,nk,nk->ni", design, weight, level[near])
         plane = np.linalg.solve(normal, right[..., None])[:, 0, 0]
         values[start : start + 256] = np.clip(plane, level[near].min(axis=1), level[near].max(axis=1))
-    return values
+        nearest = np.take_along_axis(near, np.argsort(squared, axis=1)[:, :4], axis=1)
+        lowest[start : start + 256] = level[nearest].min(axis=1)
+    return values, lowest
 
 
-def _least_of_plane(geom, level, reach: float) -> float | None:
+def _least_of_plane(geom, level, reach: float) -> tuple[float, float] | None:
     """The least reflectance that in-plane data allow: at every theta_r the darker side, all around. None for one-sided data."""
     signed = geom.signed_theta_r_deg[:, 0]
     sides = []
@@ -138,4 +148,5 @@ def _least_of_plane(geom, level, reach: float) -> float | None:
         sides.append((signed[side][order] * sign, level[side][order]))
     theta = np.degrees(np.arcsin(np.sqrt((np.arange(200) + 0.5) / 200) * np.sin(np.radians(reach))))
     darker = np.minimum(*(np.interp(theta, *side) for side in sides))
-    return float(np.exp(darker).mean() * np.pi * np.sin(np.radians(reach)) ** 2)
+    value = float(np.exp(darker).mean() * np.pi * np.sin(np.radians(reach)) ** 2)
+    return value, value

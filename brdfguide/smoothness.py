@@ -18,9 +18,11 @@ def noise(measurement: Measurement) -> float | None:
 
     Scans run over the reflected angle in one plane, or over the incidence at one reflected angle; where there are none,
     directions mirrored at the plane of incidence are compared, or each with a parabola through its neighbours. The median is used, so that peaks do not count as noise.
-    None where nothing can be compared.
+    In a dense table neighbours stand beside each other in the file. None where nothing can be compared.
     """
     level = _ln(measurement)
+    if len(level) > DENSE:
+        return _in_file_order(level)
     departures = [departure for scan in _scans(measurement) for departure in _departures(*scan, level)]
     if sum(len(each) for each in departures) < 40:
         departures += _mirrored(measurement, level)
@@ -29,6 +31,13 @@ def noise(measurement: Measurement) -> float | None:
     values = np.concatenate([np.ravel(each) for each in departures]) if departures else np.zeros(0)
     values = np.abs(values[np.isfinite(values)])
     return float(np.median(values) / 0.6745) if len(values) >= 20 else None
+
+
+def _in_file_order(level) -> float | None:
+    """From third differences along the rows, in which a smooth function leaves nothing; None where the rows are in no order."""
+    departures = np.abs(np.diff(level, 3, axis=0)) / np.sqrt(20)
+    found = np.nanmedian(departures) / 0.6745 if np.any(np.isfinite(departures)) else np.inf
+    return float(found) if found < 0.5 else None
 
 
 def spikes(measurement: Measurement) -> np.ndarray:
@@ -73,7 +82,9 @@ def dark_edges(measurement: Measurement) -> np.ndarray:
         for side in (angle > 0, angle < 0):
             outward = rows[keep & side][np.argsort(np.abs(angle[keep & side]))]
             steps = np.diff(level[outward]), np.abs(np.diff(measurement.geom.theta_r_deg[outward, 0]))
-            cliff = np.flatnonzero((steps[0] < -np.log(10.0)) & (steps[1] <= 5.5) & (steps[1] > 0))
+            slope = np.divide(*steps, out=np.zeros_like(steps[0]), where=steps[1] > 0)
+            before = np.r_[-np.inf, slope[:-1]]  # a lobe that dies out falls fast as well, but no faster than it did
+            cliff = np.flatnonzero((steps[0] < -np.log(10.0)) & (steps[1] <= 5.5) & (steps[1] > 0) & (slope < 2.5 * before))
             if len(cliff) and np.all(distance[outward[cliff[0] + 1 :]] > 15) and measurement.geom.theta_r_deg[outward[cliff[0] + 1], 0] >= EDGE_DEG:
                 mask[outward[cliff[0] + 1 :]] = True
     return mask

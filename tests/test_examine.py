@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from brdfguide import examine, formats, reflectance
+from brdfguide import examine, formats, models, reflectance, smoothness
 from brdfguide.cli import build
 from brdfguide.errors import InputError, NoAnswer
 from brdfguide.geometry import Geometry, rows
 from brdfguide.measurement import Measurement
+from brdfguide.candidates import as_metal
 
+from . import synthetic
 from .surfaces import SURFACES, dome_run, geometry, in_plane_run, table
 
 
@@ -194,3 +196,27 @@ def test_inspect_prints_one_json_object_and_draws(tmp_path):
 def test_fit_refuses_a_retro_reflector_with_status_1(data):
     result = CliRunner().invoke(build(["fit"]), ["fit", str(data / "alta" / "retro-3M-jaune.dat"), "-m", "lambertian+ggx"])
     assert isinstance(result.exception, NoAnswer)
+
+
+def beckmann_metal(alpha, k):
+    model = as_metal(models.get("beckmann"))
+    geom = geometry(*(a.ravel() for a in np.meshgrid([0.0, 20.0, 40.0, 60.0, 75.0], np.r_[0.0:81.0:5.0], np.arange(0.0, 181.0, 30.0), indexing="ij")))
+    return synthetic.surface(model, geom, {**model.defaults(), "beckmann.alpha": alpha, "beckmann.k": k}, noise=0.02, seed=17)
+
+
+@pytest.mark.parametrize("alpha", [0.107, 0.144, 0.236, 0.48])
+def test_a_lobe_that_dies_out_has_no_dark_edge(alpha):
+    assert not np.any(smoothness.dark_edges(beckmann_metal(alpha, 5.5)))
+
+
+@pytest.mark.parametrize("alpha", [0.03, 0.043, 0.06])
+def test_a_lobe_between_two_steps_of_the_scan_is_not_called_too_bright(alpha):
+    found = {finding.code for finding in examine.examine(beckmann_metal(alpha, 7.4))}
+    assert not found & {"reflectance-factor", "too-bright"}
+
+
+def test_of_a_whole_table_nothing_is_left_out(data):
+    table = formats.read(data / "merl_format" / "alum-bronze.binary.xz")
+    found = examine.examine(table)
+    assert not {finding.code for finding in found} & {"spikes", "dark-edge"}
+    assert next(dict(finding.numbers)["relative"] for finding in found if finding.code == "noise") < 0.01  # a network's output

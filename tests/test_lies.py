@@ -105,9 +105,9 @@ def test_a_dark_level_is_measured_where_a_lobe_stands_out(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["cayman.brdf", "garnet_red.brdf"])
-def test_both_files_of_the_cornell_instrument_show_the_same_dark_level(data, name):
+def test_both_files_of_the_cornell_instrument_show_the_same_dark_level_to_a_fifth(data, name):
     found = next(finding for finding in examine.examine(formats.read(data / "cornell" / name)) if finding.code == "dim-values-off")
-    assert dict(found.numbers)["offset_per_sr"] == pytest.approx(-0.0009, abs=0.0001)
+    assert dict(found.numbers)["offset_per_sr"] == pytest.approx(-0.00105, abs=0.0002)
 
 
 @pytest.mark.parametrize("name", BRIGHT)

@@ -44,6 +44,8 @@ def _dome(axes, measurement: Measurement) -> None:
     axes.set_yticklabels([])
     axes.set_xticks(np.radians([0, 90, 180, 270]), ["source side", "90°", "mirror side", "270°"])
     axes.tick_params(pad=-2)
+    for label, side in zip(axes.get_xticklabels()[1::2], ("right", "left")):
+        label.set_horizontalalignment(side)
     axes.grid(color=style.RULE, linewidth=0.5)
     axes.set_title("a  detector, rings every 30°")
 
@@ -61,8 +63,8 @@ def _chart(axes, measurement: Measurement) -> None:
     size = np.clip(6000 / len(rows), 0.8, 9)
     axes.scatter(signed[~missing], theta_i[~missing], c=shade[~missing], s=size, linewidths=0, zorder=2)
     axes.scatter(signed[missing], theta_i[missing], s=7, facecolors="none", edgecolors=LOST, linewidths=0.5, zorder=3)
-    axes.text(60, 87, "mirror", fontsize=6.5, ha="right", va="top")
-    axes.text(-60, 87, "source", fontsize=6.5, ha="left", va="top")
+    for x, side, name in ((60, "right", "mirror"), (-60, "left", "source")):
+        axes.text(x, 87, name, fontsize=6.5, ha=side, va="top", bbox={"facecolor": "white", "alpha": 0.85, "linewidth": 0, "pad": 0.8}, zorder=4)
     axes.set(xlim=(-92, 92), ylim=(0, 90), xlabel="reflection θr [°]", ylabel="incidence θi [°]")
     axes.set_xticks(range(-90, 91, 45))
     axes.set_yticks(range(0, 91, 30))
@@ -111,8 +113,8 @@ def _exchange(axes, pairs) -> None:
     axes.set_xlabel("ln (cos θr / cos θi)")
     axes.set_ylabel("ln (value / exchanged value)")
     if pairs is None:
-        axes.text(0.5, 0.6, "no exchanged pairs were measured", transform=axes.transAxes, ha="center", fontsize=7.5)
-        axes.set(xlim=(-1, 1), ylim=(-1, 1))
+        axes.text(0.5, 0.6, "no exchanged pairs\nwere measured", transform=axes.transAxes, ha="center", fontsize=7.5)
+        axes.set(xlim=(-1, 1), ylim=(-1, 1), xticks=[], yticks=[])
         return
     lever, ratio = pairs
     reach = max(0.3, float(np.abs(lever).max()) * 1.05)
