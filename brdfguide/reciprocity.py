@@ -43,21 +43,25 @@ class Dim:
 
 def test(measurement: Measurement, seed: int = 0) -> Reciprocity | None:
     """Compares up to 1200 directions with their exchange; None where fewer than 12 pairs can be formed."""
-    compared = pairs(measurement, seed)
+    rows = _exchanged(measurement, seed)
+    compared = None if rows is None else _told(measurement, *rows)
     if compared is None:
         return None
     lever, ratio = compared
     power, stderr = _slope(lever, ratio)
     spread = lambda values: float(np.exp(np.median(np.abs(values))))  # noqa: E731
-    return Reciprocity(len(ratio), power, stderr, spread(ratio), spread(ratio - lever), spread(ratio + lever), _dim(measurement, *_exchanged(measurement, seed)))
+    return Reciprocity(len(ratio), power, stderr, spread(ratio), spread(ratio - lever), spread(ratio + lever), _dim(measurement, *rows))
 
 
 def pairs(measurement: Measurement, seed: int = 0):
     """ln (cos theta_r / cos theta_i) and ln (value / exchanged value) of every pair; None for fewer than 12."""
     rows = _exchanged(measurement, seed)
-    if rows is None:
-        return None
-    lever, ratio = _compared(measurement, *rows)
+    return None if rows is None else _told(measurement, *rows)
+
+
+def _told(measurement: Measurement, here, there):
+    """`pairs` of these rows."""
+    lever, ratio = _compared(measurement, here, there)
     counted = np.any(np.isfinite(ratio), axis=1)
     ratio = np.nanmedian(ratio[counted], axis=1) if ratio.shape[1] > 1 else ratio[counted][:, 0]
     lever = lever[counted]
