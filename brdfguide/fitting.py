@@ -15,7 +15,7 @@ from .models import Sum
 SEARCH_SAMPLES = 400  # directions on which the starts are followed
 SEARCH_CHANNELS = 4
 NEAR_SAMPLES = 2000  # directions on which all channels come close
-SETTLE_VALUES, SETTLE_LEAST = 75_000, 8_000  # values, and least directions, on which the answer is settled; a larger table is thinned, its error is not
+SETTLE_VALUES, SETTLE_SAMPLES = 75_000, 8_000  # all of so many values settle the answer; of a larger table so many directions do, its error is over all
 HEAT, OUTRUN = 8, 1.5  # evaluations after which a start whose rms is this many times the best is followed no further
 HOPELESS, LEAST_HOPELESS = 4.0, 0.5  # times the best error, and rms, beyond which a model is not refined
 ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
@@ -84,7 +84,7 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
         raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
     used = measurement if len(seen) == len(measurement.brdf) else measurement[seen]
     weights = sample_weights(used, options.weights)
-    rows = sampling.representative_rows(used, max(SETTLE_VALUES // measurement.brdf.shape[1], SETTLE_LEAST))
+    rows = sampling.representative_rows(used, len(used.brdf) if used.brdf.size <= SETTLE_VALUES else SETTLE_SAMPLES)
     settle = used if len(rows) == len(used.brdf) else used[rows]
     thin, channels = starts.spread_rows(settle, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
     search = settle[thin].of_channels(channels)
