@@ -38,18 +38,18 @@ class Normal:
 
         A direction that the residuals do not depend on gets an enormous variance, never an arbitrary one.
         """
-        shared, inverse_own, lever = self._inverse
+        shared, inverse_own, lever = self._inverses
         return shared, inverse_own + lever @ shared @ np.swapaxes(lever, 1, 2)
 
     def influence(self, r, j_shared, j_own) -> tuple[np.ndarray, np.ndarray]:
         """(JᵀJ)⁻¹ Jᵀr sample by sample: how far each moves the shared (samples, p) and each channel's own (channels, samples, q) parameters."""
-        shared, inverse_own, lever = self._inverse
+        shared, inverse_own, lever = self._inverses
         pull, own_pull = j_shared * r.T[:, :, None], j_own * r.T[:, :, None]
         moved = (pull - own_pull @ lever).sum(0) @ shared
         return moved, own_pull @ inverse_own - moved @ np.swapaxes(lever, 1, 2)
 
     @cached_property
-    def _inverse(self):
+    def _inverses(self):
         """Inverse of the shared block, others eliminated; of each channel's own; and what own parameters follow shared ones by."""
         inverse_own = _variances(self.own, np.einsum("cqq->cq", self.own))
         lever = inverse_own @ np.swapaxes(self.between, 1, 2)

@@ -14,13 +14,13 @@ def _checked_specs(specs: list[str] | None) -> list[str] | None:
     """The same, before any work is done. Raises InputError for an unknown target, a missing folder, and a file named twice."""
     if specs:
         from .. import exporters
+        from ..outputs import writable
 
         files = [exporters.parse_spec(spec)[1] for spec in specs]
         for place, path in enumerate(files):
             if path in files[:place]:
                 raise InputError(f"--export names {path} twice")
-            if not path.parent.is_dir():
-                raise InputError(f"cannot write {path}: there is no folder {path.parent}")
+            writable(path)
     return specs
 
 
