@@ -78,6 +78,15 @@ class Layout:
     def own(self) -> tuple[str, ...]:
         return tuple(key for key, p in self.parameters.items() if p.per_channel or self.shape_per_channel)
 
+    @cached_property
+    def by_term(self) -> list[tuple]:
+        """Each term with the keys of its parameters by their bare names, and the names of those that are searched for."""
+        out = []
+        for term in self.model.terms:
+            keys = {p.name: f"{term.label}.{p.name}" for p in term.model.parameters}
+            out.append((term.model, keys, [name for name, key in keys.items() if key in self.parameters]))
+        return out
+
     @property
     def count(self) -> int:
         """Free numbers in all."""
@@ -119,7 +128,7 @@ class Layout:
     def decode(self, shared, own) -> dict:
         """Values of every parameter of the sum: floats, or arrays (channels,) for those that each channel has."""
         values = self.model.defaults()
-        values.update({key: float(from_coordinate(self.parameters[key], shared[place])) for place, key in enumerate(self.shared)})
+        values.update({key: float(from_coordinate(self.parameters[key], at)) for key, at in zip(self.shared, shared.tolist())})
         values.update({key: from_coordinate(self.parameters[key], own[:, place]) for place, key in enumerate(self.own)})
         return values
 
@@ -131,12 +140,12 @@ def to_coordinate(parameter: Parameter, value):
 def from_coordinate(parameter: Parameter, coordinate):
     if not parameter.log:
         return coordinate
-    return np.clip(parameter.origin + np.exp(coordinate), parameter.low, parameter.high)
+    return np.minimum(np.maximum(parameter.origin + np.exp(coordinate), parameter.low), parameter.high)
 
 
 def slope_of_coordinate(parameter: Parameter, value):
     """dp/du."""
-    return value - parameter.origin if parameter.log else np.ones_like(value)
+    return value - parameter.origin if parameter.log else 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,28 +175,30 @@ class Misfit:
     def __call__(self, shared, own, want_jacobian: bool):
         values = self.layout.decode(shared, own)
         if not want_jacobian:
-            return self._residual(seen(self.layout.model, self.measurement, values))
+            f = seen(self.layout.model, self.measurement, values)
+            return self._residual(f if f.min() > SMALLEST else np.maximum(f, SMALLEST))
         f, slopes = seen_with_slopes(self.layout, self.measurement, values)
-        residual = self._residual(f)
-        # a law that has underflowed has no slope left to follow
-        scale = 1 / self._data if self.metric.relative else np.where(f > SMALLEST, self.metric.slope(np.maximum(f, SMALLEST)), 0.0)
-        factor = self._root_weights * scale
-        return residual, self._stack(self.layout.shared, slopes, factor), self._stack(self.layout.own, slopes, factor)
+        least = f.min()
+        lit = f if least > SMALLEST else np.maximum(f, SMALLEST)
+        factor = self._root_weights * (1 / self._data if self.metric.relative else self.metric.slope(lit))
+        if lit is not f and not self.metric.relative:  # a law that has underflowed has no slope left to follow
+            factor = np.where(f > SMALLEST, factor, 0.0)
+        stacked = self._stack(slopes, factor)
+        if not least > 1 / STEEPEST:  # where the whole sum has underflowed, an amplitude's slope must not overflow when it is squared
+            np.clip(stacked, -STEEPEST, STEEPEST, out=stacked)
+        return self._residual(lit), *np.split(np.swapaxes(stacked, 1, 2), [len(self.layout.shared)], axis=2)
 
     def _residual(self, f):
-        f = np.maximum(f, SMALLEST)
         scaled = f / self._data if self.metric.relative else self.metric.scale(f)
         return self._root_weights * (scaled - self._scaled_data)
 
-    def _stack(self, keys, slopes, factor):
-        """(channels, samples, len(keys)) of d residual / d coordinate."""
-        samples, channels = factor.shape
-        stacked = np.empty((channels, len(keys), samples))
+    def _stack(self, slopes, factor):
+        """(channels, parameters, samples) of d residual / d coordinate, the shared ones first."""
+        keys = self.layout.shared + self.layout.own
+        stacked = np.empty((factor.shape[1], len(keys), len(factor)))
         for place, key in enumerate(keys):
-            stacked[:, place] = (slopes[key] * factor).T
-        if factor.max() > STEEPEST:  # where the whole sum has underflowed, an amplitude's slope must not overflow when it is squared
-            np.clip(stacked, -STEEPEST, STEEPEST, out=stacked)
-        return np.swapaxes(stacked, 1, 2)
+            np.multiply(slopes[key].T, factor.T, out=stacked[:, place])
+        return stacked
 
 
 def seen(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
@@ -200,11 +211,14 @@ def seen(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
 
 def seen_with_slopes(layout: Layout, measurement: Measurement, values: Mapping):
     """`seen`, and its derivative with respect to each free coordinate; the mirror beam's by central differences."""
-    total, slopes = 0.0, dict.fromkeys(layout.parameters, 0.0)
-    for weight, geom in measurement.views:
-        part, part_slopes = with_slopes(layout, geom, values)
-        total = total + weight * part
-        slopes = {key: slopes[key] + weight * slope for key, slope in part_slopes.items()}
+    if len(measurement.views) == 1:
+        total, slopes = with_slopes(layout, measurement.geom, values)
+    else:
+        total, slopes = 0.0, dict.fromkeys(layout.parameters, 0.0)
+        for weight, geom in measurement.views:
+            part, part_slopes = with_slopes(layout, geom, values)
+            total = total + weight * part
+            slopes = {key: slopes[key] + weight * slope for key, slope in part_slopes.items()}
     if measurement.solid_angle is None or not layout.model.has_mirror:
         return total, slopes
     beam, geom = predict.spike(measurement.geom, measurement.solid_angle), measurement.geom.where_lit()
@@ -241,25 +255,24 @@ def with_slopes(layout: Layout, geom: Geometry, values: Mapping) -> tuple[np.nda
     """
     total, slopes = 0.0, {}
     geom, values = geom.lying, _lying(values)
-    for term in layout.model.terms:
-        own = layout.model.of_term(term, values)
-        amplitude = term.model.amplitude
-        height = np.asarray(own.get(amplitude, 1.0))
-        unit = {**own, **({amplitude: 1.0} if amplitude else {})}
-        free = {key.removeprefix(term.label + "."): key for key in layout.parameters if key.startswith(term.label + ".")}
+    for model, keys, free in layout.by_term:
+        own = {name: values[key] for name, key in keys.items()}
+        amplitude = model.amplitude
+        height = own.get(amplitude, 1.0)
+        unit = {**own, amplitude: 1.0} if amplitude else own
         wanted = [name for name in free if name != amplitude]
-        known = term.model.gradient(geom, wanted, **unit) if term.model.gradient and wanted else {}
-        shape = known[amplitude] if amplitude in known else term.model(geom, **unit)
+        known = model.gradient(geom, wanted, **unit) if model.gradient and wanted else {}
+        shape = known[amplitude] if amplitude in known else model(geom, **unit)
         total = total + height * shape
         if amplitude in free:
-            slopes[free[amplitude]] = shape
+            slopes[keys[amplitude]] = shape
         for name in wanted:
-            parameter = term.model.parameter(name)
+            parameter = model.parameter(name)
             if name in known:
-                slope = known[name] * slope_of_coordinate(parameter, np.asarray(own[name]))
+                slope = known[name] * (slope_of_coordinate(parameter, own[name]) * height)
             else:
-                slope = _difference(term.model, geom, unit, parameter)
-            slopes[free[name]] = height * slope
+                slope = height * _difference(model, geom, unit, parameter)
+            slopes[keys[name]] = slope
     return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
 
 

@@ -89,24 +89,45 @@ def _interface(cos_d, n, k):
     return e2, total, share, share + rise * s2, rise, s2
 
 
-def fresnel_gradient(cos_d, n, k=0.0):
-    """dF/dn and dF/dk, from dF = Re(g dq), dq = N dN/q.
+def fresnel_with_slopes(cos_d, n, k=0.0):
+    """F, dF/dn and dF/dk, from dF = Re(g dq), dq = N dN/q.
 
-    g = -2c conj(r_s)(1 + |t|²)/(c + q)² + 2 c s² |r_s|² conj(t)/(qc + s²)²,   t = (qc - s²)/(qc + s²)
+    g = -2c conj(r_s)(1 + |t|²)/(c + q)² + 2 c s² |r_s|² conj(t)/(qc + s²)²,   t = (qc - s²)/(qc + s²),   F = |r_s|²(1 + |t|²)/2
 
-    Takes  what `fresnel` takes, off the critical angle of n < 1.    Gives  two arrays (...).
+    Takes  what `fresnel` takes, off n = 1 at grazing and off the critical angle of n < 1.    Gives  three arrays (...).
     """
     c, n, k = np.asanyarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
-    real = not np.any(k) and np.all(n >= 1)
-    index = n if real else n + 1j * k
-    e = (n - 1) * (n + 1) - k * k + (0 if real else 2j * n * k)
-    q = np.sqrt(e + c * c)
     s2 = (1 - c) * (1 + c)
-    below, across = 1 / (c + q), 1 / (q * c + s2)
-    r_s, t = -e * below * below, (q * c - s2) * across
-    g = 2 * c * (np.conj(r_s) * -(1 + _abs2(t)) * below * below + _abs2(r_s) * np.conj(t) * s2 * across * across)
-    g = g * index / q
-    return (g, np.zeros_like(g)) if real else (g.real, -g.imag)
+    if np.any(k) or np.any(n < 1):
+        index = n + 1j * k
+        e = (n - 1) * (n + 1) - k * k + 2j * n * k
+        q = np.sqrt(e + c * c)
+        below, across = 1 / (c + q), 1 / (q * c + s2)
+        r_s, t = -e * below * below, (q * c - s2) * across
+        r2, both = _abs2(r_s), 1 + _abs2(t)
+        g = 2 * c * (np.conj(r_s) * -both * below * below + r2 * np.conj(t) * s2 * across * across) * index / q
+        return 0.5 * r2 * both, g.real, -g.imag
+    e = (n - 1) * (n + 1)
+    q = np.sqrt(c * c + e)
+    below, qc = 1 / (q + c), q * c
+    across = 1 / (qc + s2)
+    t = (qc - s2) * across
+    below *= below
+    r_s, both = below * -e, t * t + 1
+    f = r_s * r_s
+    f *= both
+    f *= 0.5
+    across *= across  # g in place: t r_s s² across² - (1 + t²) below², times 2 c r_s
+    across *= s2
+    across *= t
+    across *= r_s
+    both *= below
+    across -= both
+    across *= r_s
+    across *= 2 * c
+    across *= n
+    across /= q
+    return f, across, np.zeros_like(across)
 
 
 def _abs2(z):

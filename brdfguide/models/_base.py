@@ -6,6 +6,7 @@ are solved for and never searched for.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -112,7 +113,7 @@ class Model:
         """As typed by users: the file's name with hyphens."""
         return self.module.rpartition(".")[2].replace("_", "-")
 
-    @property
+    @cached_property
     def amplitude(self) -> str | None:
         """The parameter that the law is linear in."""
         return next((p.name for p in self.parameters if p.linear), None)
@@ -128,9 +129,10 @@ class Model:
 
     def __call__(self, geom: Geometry, **values) -> np.ndarray:
         """BRDF [1/sr] in the broadcast shape of `geom`, its wavelength and the values; parameters not given keep their defaults."""
-        for name in values.keys() - self.defaults().keys():
+        defaults = self.defaults()
+        for name in values.keys() - defaults.keys():
             self.parameter(name)
-        values = {**self.defaults(), **values}
+        values = {**defaults, **values}
         if geom.all_lit:
             return self.brdf(geom, **values)
         return np.where(geom.lit, self.brdf(geom.where_lit(), **values), 0.0)
@@ -155,7 +157,7 @@ class Sum:
     free: tuple[str, ...] = ()  # parameters that are fitted here though a law keeps them fixed by itself
     start: Mapping[str, float] = field(default_factory=dict)  # where a guideline would begin, in place of the defaults
 
-    @property
+    @cached_property
     def parameters(self) -> dict[str, Parameter]:
         return {f"{t.label}.{p.name}": p for t in self.terms for p in t.model.parameters}
 

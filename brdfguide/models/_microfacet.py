@@ -20,11 +20,10 @@ INDEX = (
 
 def gradient_of(geom: Geometry, names, shape, by_alpha, n, k, scale) -> dict[str, np.ndarray]:
     """df/dscale, df/dalpha, and df/dn and df/dk as far as `names` asks for them, from d ln shape/dalpha."""
-    lobe = optics.fresnel(geom.cos_d, n, k) * shape
-    out = {"scale": lobe, "alpha": scale * lobe * by_alpha}
-    if "n" in names or "k" in names:
-        out["n"], out["k"] = (scale * shape * slope for slope in optics.fresnel_gradient(geom.cos_d, n, k))
-    return out
+    f, *by_index = optics.fresnel_with_slopes(geom.cos_d, n, k) if "n" in names or "k" in names else (optics.fresnel(geom.cos_d, n, k),)
+    lobe = f * shape
+    slopes = {name: slope * (scale * shape) for name, slope in zip("nk", by_index)}
+    return {"scale": lobe, "alpha": lobe * (scale * by_alpha), **slopes}
 
 
 def with_fixed_fresnel(shape):

@@ -36,15 +36,15 @@ def ln_series(g, y, derivatives: bool = False):
     groups = [(CELLS[each], start, stop) for each, start, stop in zip(touched, starts.tolist(), [*starts[1:].tolist(), code.size])]
     out = np.empty((3 if derivatives else 1, code.size))
     _evaluate([group for group in groups if group[0] is not None], t_g, t_y, out)
-    result = np.empty_like(out)
-    result[:, order] = out
     if derivatives:
-        result[1:, order] = _by_chain_rule(code, *out[1:], g[order], y[order])
+        _chain(code, out, g[order], y[order])
     for cell, start, stop in groups:
         if cell is None:
             rows = order[start:stop]
-            result[:, rows] = by_terms(g[rows], y[rows])[: len(result)]
-    values = [row.reshape(shape) for row in result]
+            out[:, start:stop] = by_terms(g[rows], y[rows])[: len(out)]
+    back = np.empty_like(order)
+    back[order] = np.arange(order.size)
+    values = [row.take(back).reshape(shape) for row in out]
     return tuple(values) if derivatives else values[0]
 
 
@@ -76,7 +76,7 @@ def _split():
 
 
 SPLIT = _split()
-CELLS: dict[int, np.ndarray | None] = {OUTSIDE: None}  # powers of t_g in rows, of t_y in columns; None: not resolved
+CELLS: dict[int, np.ndarray | None] = {OUTSIDE: None}  # ln S and its slopes by t_g and t_y: powers of t_y in rows, of t_g in columns; None: not resolved
 
 
 def _fill(codes):
@@ -100,12 +100,16 @@ def _fill(codes):
 
 
 def _powers(chebyshev, tail):
-    """Coefficients of powers from Chebyshev's, without their tail; None if the tail has not died out."""
+    """Coefficients of powers from Chebyshev's, without their tail, and of both derivatives; None if the tail has not died out."""
     large = np.abs(chebyshev) > tail
     n_g, n_y = (np.flatnonzero(large.any(axis=axis)).max() + 1 for axis in (1, 0))
     if max(n_g, n_y) > len(chebyshev) - 2:
         return None
-    return np.ascontiguousarray(_to_powers(n_g) @ chebyshev[:n_g, :n_y] @ _to_powers(n_y).T)
+    cell = np.zeros((3, n_y, n_g))
+    cell[0] = _to_powers(n_y) @ chebyshev[:n_g, :n_y].T @ _to_powers(n_g).T
+    cell[1, :, :-1] = np.arange(1, n_g) * cell[0, :, 1:]
+    cell[2, :-1] = np.arange(1, n_y)[:, None] * cell[0, 1:]
+    return cell
 
 
 @cache
@@ -121,44 +125,41 @@ def _evaluate(groups, t_g, t_y, out):
     """The polynomials into out[0]; their derivatives by t_g and t_y into out[1] and out[2] where these exist.
 
     Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand products.
-    `einsum` and not a matrix product, whose last digits depend on how many samples stand side by side.
+    Never for one sample alone, whose last digits would be summed in another order than among others.
     """
     for first in range(0, t_g.size, BLOCK):
-        here = [(cell, max(start, first), min(stop, first + BLOCK)) for cell, start, stop in groups if start < first + BLOCK and stop > first]
+        here = [(cell, max(start, first) - first, min(stop, first + BLOCK) - first) for cell, start, stop in groups if start < first + BLOCK and stop > first]
         if not here:
             continue
-        sizes = np.max([cell.shape for cell, *_ in here], axis=0)
-        powers_g, powers_y = (_powers_of(t[first : first + BLOCK], size) for t, size in zip((t_g, t_y), sizes))
-        if len(out) == 3:
-            derived_g, derived_y = _derived(powers_g), _derived(powers_y)
+        (_, most_y, most_g), part = np.max([cell.shape for cell, *_ in here], axis=0), slice(first, first + BLOCK)
+        powers_g, powers_y = _powers_of(t_g[part], most_g), _powers_of(t_y[part], most_y)
         for cell, start, stop in here:
-            (n_g, n_y), cut, part = cell.shape, slice(start - first, stop - first), slice(start, stop)
-            inner = cell @ powers_y[:n_y, cut]
-            np.einsum("in,in->n", powers_g[:n_g, cut], inner, out=out[0, part])
-            if len(out) == 3:
-                np.einsum("in,in->n", derived_g[:n_g, cut], inner, out=out[1, part])
-                np.einsum("in,in->n", powers_g[:n_g, cut], cell @ derived_y[:n_y, cut], out=out[2, part])
+            _, n_y, n_g = cell.shape
+            cut = slice(start, max(stop, start + 2))
+            inner = cell[: len(out)].reshape(-1, n_g) @ powers_g[:n_g, cut]
+            values = np.einsum("kin,in->kn", inner.reshape(len(out), n_y, -1), powers_y[:n_y, cut])
+            out[:, first + start : first + stop] = values[:, : stop - start]
 
 
 def _powers_of(t, count):
-    powers = np.empty_like(t, shape=(count, t.size + 1))[:, :-1]  # never one column alone: it would be summed in another order
+    """Powers of t in rows, and those of a spare 0 at the end."""
+    powers = np.empty_like(t, shape=(count, t.size + 1))
     powers[0] = 1.0
-    done = 1
+    powers[1:2, :-1] = t
+    powers[1:, -1] = 0.0
+    done = 2
     while done < count:  # twice as many at each step
-        more = min(done, count - done)
-        np.multiply(powers[:more], powers[done - 1] * t, out=powers[done : done + more])
+        more = min(done - 1, count - done)
+        np.multiply(powers[1 : 1 + more], powers[done - 1], out=powers[done : done + more])
         done += more
     return powers
 
 
-def _derived(powers):
-    derived = np.zeros_like(powers, shape=(len(powers), powers.shape[1] + 1))[:, :-1]
-    np.multiply(powers[:-1], np.arange(1.0, len(powers))[:, None], out=derived[1:])
-    return derived
-
-
-def _by_chain_rule(code, by_t_g, by_t_y, g, y):
-    """d ln S/d ln g and d ln S/dy from the derivatives by a cell's own coordinates."""
+def _chain(code, out, g, y):
+    """The derivatives by a cell's own coordinates in out[1] and out[2] into d ln S/d ln g and d ln S/dy."""
     octave = np.where(code == OUTSIDE, 0, code // PARTS)
-    by_y = by_t_y * (2 / log(2)) * SPLIT.take(octave) / (np.maximum(g, 4.0) + y)
-    return by_t_g * (2 / log(2)) - np.where(g > 4, by_y * y, 0.0), by_y
+    out[2] *= SPLIT.take(octave)
+    out[2] *= 2 / log(2)
+    out[2] /= np.maximum(g, 4.0) + y
+    out[1] *= 2 / log(2)
+    out[1] -= np.where(g > 4, out[2] * y, 0.0)

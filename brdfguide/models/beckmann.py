@@ -34,9 +34,9 @@ def shape(geom: Geometry, alpha) -> np.ndarray:
 
 def _masking(geom: Geometry, alpha):
     """4 cos θi cos θr (1 + Λi + Λr), in which nothing is divided by a cosine."""
-    hidden = _hidden(geom.tan_i, alpha)
+    hidden, _ = _hidden(geom.tan_i, alpha)
     hidden *= geom.sin_i * geom.cos_r
-    other = _hidden(geom.tan_r, alpha)
+    other, _ = _hidden(geom.tan_r, alpha)
     other *= geom.sin_r * geom.cos_i
     hidden += other
     hidden *= 2 * alpha
@@ -44,17 +44,13 @@ def _masking(geom: Geometry, alpha):
 
 
 def _hidden(tan, alpha):
-    """Λ/(½ alpha tan θ) = exp(-x²) (1/√π - x erfcx x)."""
-    x = _x(tan, alpha)
+    """Λ/(½ alpha tan θ) = exp(-x²) (1/√π - x erfcx x), and exp(-x²)."""
+    x = 1 / np.maximum(tan * alpha, 1 / 32)  # beyond 32, where exp(-x²) is 0, it stays 32 so that the normal has a value
     hidden = _horner(ABOVE, x)
     hidden /= _horner(BELOW, x)
-    hidden *= np.exp(x * -x)
-    return hidden
-
-
-def _x(tan, alpha):
-    """1/(alpha tan θ); beyond 32, where exp(-x²) is 0, it stays 32 so that the normal has a value."""
-    return 1 / np.maximum(tan * alpha, 1 / 32)
+    bell = np.exp(x * -x)
+    hidden *= bell
+    return hidden, bell
 
 
 def _horner(coefficients, x):
@@ -73,9 +69,10 @@ def brdf(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarray]:
     """d ln f/dalpha = (2/alpha)(t/alpha² - 1) - d ln(1 + Λi + Λr)/dalpha, with cos θ dΛ/dalpha = sin θ exp(-x²)/(2√π)."""
-    masking = _masking(geom, alpha)
-    rise = geom.sin_i * geom.cos_r * np.exp(-(_x(geom.tan_i, alpha) ** 2))
-    rise = (rise + geom.sin_r * geom.cos_i * np.exp(-(_x(geom.tan_r, alpha) ** 2))) * (2 / sqrt(pi))
+    (hidden_i, bell_i), (hidden_r, bell_r) = _hidden(geom.tan_i, alpha), _hidden(geom.tan_r, alpha)
+    in_i, in_r = geom.sin_i * geom.cos_r, geom.sin_r * geom.cos_i
+    masking = (2 * alpha) * (hidden_i * in_i + hidden_r * in_r) + 4 * geom.cos_cos
+    rise = (bell_i * in_i + bell_r * in_r) * (2 / sqrt(pi))
     by_alpha = (2 / alpha) * (geom.tan2_h / alpha**2 - 1) - rise / masking
     return gradient_of(geom, names, beckmann(geom, alpha) / masking, by_alpha, n, k, scale)
 

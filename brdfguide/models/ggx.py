@@ -52,12 +52,14 @@ def brdf(geom: Geometry, *, alpha, n, k, scale) -> np.ndarray:
 
 def gradient(geom: Geometry, names, *, alpha, n, k, scale) -> dict[str, np.ndarray]:
     """d ln f/dalpha = 2/alpha - 4 alpha/(alpha² + t) - alpha (sin²θi cos θr/√i + sin²θr cos θi/√r)/(cos θr √i + cos θi √r)."""
-    a2 = alpha * alpha
-    root_i = np.sqrt((1 - alpha) * (1 + alpha) * geom.cos2_i + a2)
-    root_r = np.sqrt((1 - alpha) * (1 + alpha) * geom.cos2_r + a2)
-    masking = (geom.sin_i**2 * geom.cos_r / root_i + geom.sin_r**2 * geom.cos_i / root_r) / (geom.cos_r * root_i + geom.cos_i * root_r)
-    by_alpha = 2 * (geom.tan2_h - a2) / (alpha * (geom.tan2_h + a2)) - alpha * masking
-    return gradient_of(geom, names, shape(geom, alpha), by_alpha, n, k, scale)
+    a2, less = alpha * alpha, (1 - alpha) * (1 + alpha)
+    root_i, root_r = np.sqrt(less * geom.cos2_i + a2), np.sqrt(less * geom.cos2_r + a2)
+    masking = geom.cos_r * root_i + geom.cos_i * root_r
+    rise = geom.sin_i * geom.sin_i * geom.cos_r / root_i + geom.sin_r * geom.sin_r * geom.cos_i / root_r
+    near = 1 / (geom.tan2_h + a2)
+    by_alpha = (2 / alpha) * (geom.tan2_h - a2) * near - alpha * rise / masking
+    near *= geom.sec2_h
+    return gradient_of(geom, names, near * near * (a2 / (2 * pi)) / masking, by_alpha, n, k, scale)
 
 
 def bare(geom: Geometry, alpha) -> np.ndarray:

@@ -49,16 +49,15 @@ def gradient(geom: Geometry, names, *, sigma, slope, n, k, scale) -> dict[str, n
     bare, g, y, through_s, through_g = in_blocks(_parts, geom, sigma, slope, None, None, 1.0, True)
     ln_s, by_ln_g, by_y = ln_series(g, y, derivatives=True)
     bare = bare * np.exp(ln_s)
-    lobe = bare * fresnel(geom, n, k)
+    f, *by_index = optics.fresnel_with_slopes(geom.cos_d, n, k) if "n" in names or "k" in names else (fresnel(geom, n, k),)
+    lobe = bare * f
     by_tau = 2 + 2 * y * by_y  # d ln f/d ln tau
-    out = {
+    return {
         "scale": lobe,
-        "sigma": scale * lobe * (by_tau + 2 * by_ln_g) / sigma,
-        "slope": scale * lobe * (through_s + by_ln_g * through_g - by_tau) / slope,
+        "sigma": lobe * (by_tau + 2 * by_ln_g) * (scale / sigma),
+        "slope": lobe * (through_s + by_ln_g * through_g - by_tau) * (scale / slope),
+        **{name: by * bare * scale for name, by in zip("nk", by_index)},
     }
-    if "n" in names or "k" in names:
-        out["n"], out["k"] = (scale * bare * each for each in optics.fresnel_gradient(geom.cos_d, n, k))
-    return out
 
 
 def _parts(geom, sigma, slope, n, k, scale, derivatives=False):

@@ -30,11 +30,10 @@ def gradient(geom: Geometry, names, *, ks, tilt, exponent) -> dict[str, np.ndarr
     """df/dn = f ln base; df/dt = f n (dbase/dt)/base, where base turns by -cos θi cos θr/(sin t |sin t|) or by -i_xy·r_xy/cos²t."""
     above, ln_base = _ln_base(geom, *_coefficients(tilt))
     lobe = np.where(above, np.exp(exponent * ln_base), 0.0)
-    f = ks * lobe
     wide = np.abs(tilt) < pi / 4
     sin, cos = np.where(wide, 1.0, np.sin(tilt)), np.cos(tilt)
-    turned = np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
-    return {"ks": lobe, "tilt": f * exponent * turned * np.exp(-ln_base), "exponent": f * ln_base}
+    turned = geom.dot_xy / -(cos**2) if np.all(wide) else np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
+    return {"ks": lobe, "tilt": lobe * turned * np.exp(-ln_base) * (ks * exponent), "exponent": lobe * ln_base * ks}
 
 
 def c_xy(tilt):
