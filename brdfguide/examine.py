@@ -47,7 +47,7 @@ def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
     if not anyway:
         false = dark_edges(measurement)
         if measurement.solid_angle is None:  # with it, a mirror term can be compared with a spike
-            false |= spikes(measurement)
+            false = false | spikes(measurement)
         if np.any(false):
             measurement = replace(measurement, brdf=np.where(false[:, None], np.nan, measurement.brdf))
     return measurement.noting(*(finding for finding in found if finding.severity != "note"))

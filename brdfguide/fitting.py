@@ -143,8 +143,7 @@ def settle(searched: Search, data: Data, options: Options, hopeless: bool = Fals
     stderr = uncertainty.standard_errors(layout, values, best.normal, variance, part, correlation)
     wrong = uncertainty.discrepancy(part, correlation, score)
     if wrong and not hopeless:
-        misfit = Misfit(layout, data.settle, scale, weights)(*start, True)
-        wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, misfit, data.segments)
+        wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, best.seen, data.segments)
         stderr = {key: np.maximum(error, wide[key]) for key, error in stderr.items()}
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
     warnings += [warning for warning in (wrong, _disagreement(layout, found)) if warning]

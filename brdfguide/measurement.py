@@ -1,12 +1,14 @@
 """What an instrument reported: values with their directions, channels and doubts."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, wraps
 
 import numpy as np
 
 from . import aperture
 from .geometry import Geometry
+
+MOST_HELD = 120  # distinct incidence angles; with more, none was held
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,13 @@ class Measurement:
         """Incidence angle [deg], to 0.1° -> its rows."""
         return rows_by_tenth(self.geom.theta_i_deg[:, 0])
 
+    @cached_property
+    def incidences(self) -> dict[float, np.ndarray]:
+        """Incidence angle [deg] -> its rows: `theta_i_groups`, in bands of a degree where no incidence was held."""
+        if len(self.theta_i_groups) <= MOST_HELD:
+            return self.theta_i_groups
+        return rows_of_each(np.round(self.geom.theta_i_deg[:, 0]))
+
     def __getitem__(self, rows) -> "Measurement":
         """The same for some of the rows: a slice, mask or list of row numbers."""
         pick = lambda values: None if values is None else values[rows]  # noqa: E731
@@ -87,9 +96,26 @@ class Measurement:
         return replace(self, findings=self.findings + findings)
 
 
+def once(function):
+    """A function of a measurement, computed once for each."""
+
+    @wraps(function)
+    def found(measurement: Measurement):
+        if function not in measurement.__dict__:
+            measurement.__dict__[function] = function(measurement)
+        return measurement.__dict__[function]
+
+    return found
+
+
 def rows_by_tenth(angles) -> dict[float, np.ndarray]:
     """Angle [deg], to 0.1° -> the rows that have it."""
-    angles = np.round(angles, 1)
-    order = np.argsort(angles, kind="stable")
-    values, starts = np.unique(angles[order], return_index=True)
-    return dict(zip(values.tolist(), np.split(order, starts[1:])))
+    return rows_of_each(np.round(angles, 1))
+
+
+def rows_of_each(values) -> dict[float, np.ndarray]:
+    """Value -> the rows that have it, both in ascending order."""
+    order = np.argsort(values, kind="stable")
+    values = values[order]
+    starts = np.flatnonzero(np.r_[True, values[1:] != values[:-1]])
+    return {value: order[start:stop] for value, start, stop in zip(values[starts].tolist(), starts.tolist(), [*starts[1:].tolist(), len(order)])}

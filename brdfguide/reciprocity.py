@@ -5,6 +5,7 @@ cos theta_i, p = -1. A wrong dark level adds d / cos theta_i to all: bright valu
 """
 
 from dataclasses import dataclass
+from math import pi
 from random import Random
 
 import numpy as np
@@ -13,7 +14,7 @@ from .measurement import Measurement
 
 NEAR_DEG = 3.0  # how far apart a direction and the exchanged one may lie
 LEVER = 0.15  # least |ln (cos theta_r / cos theta_i)| that says something about the power
-MOST = 1200  # directions compared
+MOST, BLOCK = 1200, 64  # directions compared, and at once
 STEEP = 0.3  # change of ln f over the distance between exchanged directions beyond which they tell nothing
 STEADY = 3.0  # |ln ratio| beyond which a peak was met by its flank
 UNTOUCHED = 0.2  # power of the cosines that counts as none
@@ -144,15 +145,36 @@ def _places(geom) -> np.ndarray:
 
 
 def _nearest(points, among, but=None):
-    """Index of the nearest of `among` for each of `points`, and the distance; never that of `but`. In blocks, so that memory stays small."""
-    index = np.empty(len(points), int)
+    """Index of the nearest of `among` for each of `points`, and the distance; never that of `but`.
+
+    The nearest is looked for at like incidences, and among all where it may lie at another. In blocks, so that memory stays small.
+    """
+    order = np.argsort(among[:, 0], kind="stable")
+    among, but = among[order], None if but is None else np.argsort(order)[but]
     # single precision finds the place, to some 0.02 degrees; the distance is then formed exactly
     rough = np.concatenate([np.sum(among**2, axis=1, keepdims=True), among], axis=1).astype(np.float32).T
     wanted = np.concatenate([np.ones((len(points), 1)), -2 * points], axis=1).astype(np.float32)
-    for start in range(0, len(points), 512):
-        apart = wanted[start : start + 512] @ rough
+    index, distance = np.empty(len(points), int), np.empty(len(points))
+
+    def look(rows, first, last) -> None:
+        apart = wanted[rows] @ rough[:, first:last]
         if but is not None:
-            apart[np.arange(len(apart)), but[start : start + 512]] = np.inf
-        index[start : start + 512] = np.argmin(apart, axis=1)
-    distance = np.sqrt(np.sum((points - among[index]) ** 2, axis=1))
-    return index, distance
+            own = but[rows] - first
+            some = np.flatnonzero((own >= 0) & (own < last - first))
+            apart[some, own[some]] = np.inf
+        index[rows] = first + np.argmin(apart, axis=1)
+        distance[rows] = np.sqrt(np.sum((points[rows] - among[index[rows]]) ** 2, axis=1))
+        if but is not None:
+            distance[rows[index[rows] == but[rows]]] = np.inf
+
+    by_incidence, reach = np.argsort(points[:, 0], kind="stable"), np.radians(NEAR_DEG)
+    for rows in np.array_split(by_incidence, -(-len(points) // BLOCK)):
+        low, high = np.arcsin(np.minimum(points[rows[[0, -1]], 0], 1.0)) + (-reach, reach)
+        first = np.searchsorted(among[:, 0], np.sin(max(low, 0.0)))
+        last = np.searchsorted(among[:, 0], np.sin(high), side="right") if high < pi / 2 else len(among)
+        if first < last:
+            look(rows, first, last)
+        far = rows[distance[rows] > 2 * np.sin(reach / 2)] if first < last else rows
+        if len(far) and last - first < len(among):
+            look(far, 0, len(among))
+    return order[index], distance

@@ -127,9 +127,9 @@ def _interpolated(nodes, places, level):
         weight /= weight.sum(axis=1, keepdims=True)
         local = places[near] - block[:, None]
         design = np.concatenate([np.ones((*local.shape[:2], 1)), local], axis=2)
-        normal = np.einsum("nki,nk,nkj->nij", design, weight, design) + np.diag([0.0, 1e-6, 1e-6])
-        right = np.einsum("nki,nk,nk->ni", design, weight, level[near])
-        plane = np.linalg.solve(normal, right[..., None])[:, 0, 0]
+        across = np.swapaxes(design * weight[..., None], 1, 2)
+        normal = across @ design + np.diag([0.0, 1e-6, 1e-6])
+        plane = np.linalg.solve(normal, across @ level[near][..., None])[:, 0, 0]
         values[start : start + 256] = np.clip(plane, level[near].min(axis=1), level[near].max(axis=1))
         nearest = np.take_along_axis(near, np.argsort(squared, axis=1)[:, :4], axis=1)
         lowest[start : start + 256] = level[nearest].min(axis=1)

@@ -27,15 +27,18 @@ def lobe(measurement: Measurement) -> Retro | None:
     level[usable] = np.nanmedian(np.where(measurement.usable[usable], measurement.brdf[usable], np.nan), axis=1)
     source = conventions.retro_distance_deg(geom)[:, 0]
     mirror = np.degrees(2 * np.arcsin(np.minimum(0.5 * np.sqrt(geom.mirror_distance2[:, 0]), 1.0)))
+    counted = usable & ((mirror > np.minimum(geom.theta_i_deg[:, 0], 12.0)) | (mirror < source))
+    at_source, about = counted & (source < 6.0), counted & (source > 10.0) & (source < 25.0) & (mirror > 12.0)
+    before = counted & (mirror < source) & (source > 15.0)
     lobes, over = [], []
-    for angle, rows in measurement.theta_i_groups.items():
-        rows = rows[usable[rows] & (mirror[rows] > np.minimum(angle, 12.0)) | usable[rows] & (mirror[rows] < source[rows])]
-        near = rows[source[rows] < 6.0]
-        around = rows[(source[rows] > 10.0) & (source[rows] < 25.0) & (mirror[rows] > 12.0)]
-        if angle < STEEP_DEG or not len(near) or not len(around):
+    for angle, rows in measurement.incidences.items():
+        near = rows[at_source[rows]]
+        if angle < STEEP_DEG or not len(near):
+            continue
+        around, ahead = rows[about[rows]], rows[before[rows]]
+        if not len(around):
             continue
         lobes.append(level[near].max() / np.median(level[around]))
-        ahead = rows[(mirror[rows] < source[rows]) & (source[rows] > 15.0)]
         if len(ahead):
             over.append(level[near].max() / level[ahead].max())
     if not lobes:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .measurement import Measurement, rows_by_tenth
+from .measurement import Measurement, once, rows_by_tenth
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 # how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
@@ -40,6 +40,7 @@ def _in_file_order(level) -> float | None:
     return float(found) if found < 0.5 else None
 
 
+@once
 def spikes(measurement: Measurement) -> np.ndarray:
     """(samples,) mask of directions one or two samples wide at the mirror direction that stand far above their surroundings.
 
@@ -50,7 +51,10 @@ def spikes(measurement: Measurement) -> np.ndarray:
         return mask
     level = np.nanmax(np.where(measurement.usable, _ln(measurement), -np.inf), axis=1)
     distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
+    near = (distance <= SPIKE_DEG) & np.isfinite(level)
     for rows in _groups(measurement):
+        if not near[rows].any():
+            continue
         rows = rows[np.isfinite(level[rows])]
         rows = rows[np.argsort(distance[rows], kind="stable")]
         for core in (2, 1):
@@ -65,6 +69,7 @@ def spikes(measurement: Measurement) -> np.ndarray:
     return mask
 
 
+@once
 def dark_edges(measurement: Measurement) -> np.ndarray:
     """(samples,) mask of outermost directions of a scan where the value falls to a tenth within five degrees.
 
@@ -101,22 +106,24 @@ def _groups(measurement: Measurement):
     return list((reflected if len(reflected) < len(incidences) else incidences).values())
 
 
-def _scans(measurement: Measurement):
+@once
+def _scans(measurement: Measurement) -> list[tuple[np.ndarray, np.ndarray]]:
     """(rows in order, their angle [deg]) of every scan through at least five directions."""
-    geom = measurement.geom
+    geom, scans = measurement.geom, []
     if len(geom) > DENSE:
-        return
+        return scans
     plane = np.round(np.where(geom.sin_i < 1e-6, 0.0, np.remainder(geom.phi_deg + 1e-6, 180.0)), 0)[:, 0] % 180
     sign = np.where(np.remainder(geom.phi_deg[:, 0] + 1e-6, 360.0) >= 179.5, 1.0, -1.0)
     theta_i, theta_r = geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0]
     for fixed, angle in ((theta_i, sign * theta_r), (sign * theta_r, theta_i)):
-        keys = np.round(np.stack([fixed, plane], axis=1), 1)
-        order = np.lexsort((angle, keys[:, 1], keys[:, 0]))
-        cuts = np.flatnonzero(np.any(np.diff(keys[order], axis=0) != 0, axis=1)) + 1
+        keys = np.round(10 * fixed) * 1000 + plane
+        order = np.lexsort((angle, keys))
+        cuts = np.flatnonzero(np.diff(keys[order])) + 1
         edges = np.r_[0, cuts, len(order)]
         for scan in np.flatnonzero(np.diff(edges) >= 5):  # scattered directions make tens of thousands of scans of one
             rows = order[edges[scan] : edges[scan + 1]]
-            yield rows, angle[rows]
+            scans.append((rows, angle[rows]))
+    return scans
 
 
 def _departures(rows, angle, level):
@@ -147,9 +154,10 @@ def _mirrored(measurement: Measurement, level):
     if len(geom) > DENSE:
         return []
     phi = np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0
-    keys = np.round(np.stack([geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0], np.abs(phi)], axis=1), 2)
-    order = np.lexsort((phi, *keys.T))
-    pairs = np.all(np.diff(keys[order], axis=0) == 0, axis=1) & (phi[order[:-1]] < -1e-6) & (phi[order[1:]] > 1e-6)
+    theta_i, theta_r, off = (np.round(100 * angle) for angle in (geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0], np.abs(phi)))
+    keys = (theta_i * 1e4 + theta_r) * 1e5 + off
+    order = np.lexsort((phi, keys))
+    pairs = (np.diff(keys[order]) == 0) & (phi[order[:-1]] < -1e-6) & (phi[order[1:]] > 1e-6)
     return [(level[order[1:][pairs]] - level[order[:-1][pairs]]) / np.sqrt(2)]
 
 
@@ -161,23 +169,30 @@ def _scattered(measurement: Measurement, level):
     geom = measurement.geom
     phi = np.radians(np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0))
     places = np.stack([geom.sin_r[:, 0] * np.cos(phi), geom.sin_r[:, 0] * np.sin(phi)], axis=1)
-    seen, stride = np.any(np.isfinite(level), axis=1), -(-len(geom) // ASKED)
-    asked, near, first = [], [], 0
-    for rows in measurement.theta_i_groups.values():
-        rows = rows[seen[rows]]
-        if len(rows) < 20:
-            continue
-        for row in rows[first::stride]:
-            apart = np.sum((places[rows] - places[row]) ** 2, axis=1)
-            apart[rows == row] = np.inf
-            asked.append(row)
-            near.append(rows[np.argpartition(apart, 11)[:12]])
-        first = (first - len(rows)) % stride
-    if not asked:
+    seen = np.any(np.isfinite(level), axis=1)
+    groups = [rows[seen[rows]] for rows in measurement.theta_i_groups.values()]
+    groups = [rows for rows in groups if len(rows) >= 20]
+    if not groups:
         return []
-    asked, near = np.array(asked), np.array(near)
+    rows, sizes = np.concatenate(groups), np.array([len(each) for each in groups])
+    places, stride = places[rows], -(-len(geom) // ASKED)
+    asked, size = np.arange(0, len(rows), stride), np.repeat(sizes, sizes)[::stride]
+    first = np.repeat(np.cumsum(sizes) - sizes, sizes)[::stride]
+    near = np.concatenate([_beside(places, *each) for each in zip(*(np.array_split(part, -(-len(asked) * sizes.max() // 2**19)) for part in (asked, first, size)))])
     x, y = np.moveaxis(places[near] - places[asked][:, None], -1, 0)
+    x, y = (each / np.hypot(x, y).max(axis=1, keepdims=True) for each in (x, y))
     design = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
-    weights = np.linalg.pinv(design)[:, 0]
+    across = np.swapaxes(design, 1, 2)
+    weights = np.linalg.solve(across @ design + 1e-9 * np.eye(6), across)[:, 0]  # a touch of ridge: the twelve may stand in a line
+    level = level[rows]
     guess = np.einsum("nk,nkc->nc", weights, level[near])
     return [(level[asked] - guess) / np.sqrt(1 + np.sum(weights**2, axis=1))[:, None]]
+
+
+def _beside(places, asked, first, size):
+    """The twelve places nearest to each of those `asked`, out of the `size` from `first` on; (asked, 12)."""
+    among = np.arange(size.max())
+    columns = np.minimum(first[:, None] + among, len(places) - 1)
+    apart = np.sum((places[columns] - places[asked][:, None]) ** 2, axis=2)
+    apart[(among >= size[:, None]) | (columns == asked[:, None])] = np.inf
+    return np.take_along_axis(columns, np.argpartition(apart, 11, axis=1)[:, :12], axis=1)

@@ -80,7 +80,7 @@ class _Seen:
     def __init__(self, measurement: Measurement):
         values = np.where(measurement.usable, measurement.brdf, np.nan)
         geom = measurement.geom
-        self.values, self.rows = values, measurement.theta_i_groups
+        self.values, self.rows = values, measurement.incidences
         self.from_mirror = np.degrees(2 * np.arcsin(np.minimum(np.sqrt(geom.mirror_distance2[:, 0]) / 2, 1.0)))
         self.theta_r = geom.theta_r_deg[:, 0]
         self.grey = _row_median(values)
