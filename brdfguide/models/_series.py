@@ -21,18 +21,18 @@ LONGEST = 4096
 LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)))]) + np.log(np.maximum(np.arange(LONGEST), 1))
 
 
-def by_terms(g, y):
-    """ln S to 3e-13 with its derivatives by ln g and by y: three rows. Takes flat g > 0 and y >= 0."""
+def by_terms(g, y, derivatives: bool = True):
+    """ln S to 3e-13, with its derivatives by ln g and by y: three rows, or one. Takes flat g > 0 and y >= 0."""
     u, top, width = hump(g, y)
-    result = np.empty((3, g.size))
+    result = np.empty((3 if derivatives else 1, g.size))
     order = np.argsort(width, kind="stable")
     first_wide = np.searchsorted(width[order], WIDE)
     for start in range(0, first_wide, 512):  # neighbours in width need windows of one length
         part = order[start : min(start + 512, first_wide)]
-        result[:, part] = _over_orders(g[part], y[part], top[part], width[part])
+        result[:, part] = _over_orders(g[part], y[part], top[part], width[part], derivatives)
     for start in range(first_wide, g.size, 512):
         part = order[start : start + 512]
-        result[:, part] = _integral(g[part], y[part], u[part], top[part], width[part])
+        result[:, part] = _integral(g[part], y[part], u[part], top[part], width[part], derivatives)
     return result
 
 
@@ -44,17 +44,18 @@ def hump(g, y):
     return u, top, np.sqrt(top / (1 + 2 * u))
 
 
-def _over_orders(g, y, top, width):
+def _over_orders(g, y, top, width, derivatives):
     """The sum over the whole numbers around a narrow hump."""
     first = np.maximum(np.floor(top - 8.5 * width - 2), 1).astype(int)
     count = int(np.ceil(np.max(top + 12 * width + 14 - first)))
     m = first[:, None] + np.arange(count)
     exponent = m * np.log(g)[:, None] - LN_FACTORIAL_M[m] - y[:, None] / m
     highest, term, total = _scaled(exponent)
-    return highest - g + np.log(total), (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total
+    value = highest - g + np.log(total)
+    return (value, (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total) if derivatives else (value,)
 
 
-def _integral(g, y, u, top, width):
+def _integral(g, y, u, top, width, derivatives):
     """The trapezoidal rule over a wide hump; the exponent by differences that lose no digits at g = 1e8."""
     p = (1.5 + 3 * u)[:, None]
     ln_stretch = np.log1p(width[:, None] / (p * top[:, None]) * NODES)
@@ -68,7 +69,7 @@ def _integral(g, y, u, top, width):
     exponent = -g * psi - y[:, None] * one_over_m - 1.5 * l - stirling + (p - 1) * ln_stretch
     highest, term, total = _scaled(exponent)
     value = highest + np.log(total * (NODES[1] - NODES[0])) + np.log(width) - 1.5 * np.log(g[:, 0]) - 0.5 * log(2 * pi)
-    return value, (term * (g * np.expm1(l))).sum(axis=1) / total, -(term * one_over_m).sum(axis=1) / total
+    return (value, (term * (g * np.expm1(l))).sum(axis=1) / total, -(term * one_over_m).sum(axis=1) / total) if derivatives else (value,)
 
 
 def _scaled(exponent):

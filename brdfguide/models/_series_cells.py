@@ -14,7 +14,7 @@ import numpy as np
 from ._series import by_terms, hump
 
 TAIL, NOISE = 1e-12, 4e-15  # Chebyshev coefficients below it, and below this share of |ln S|, are dropped
-SIZES = (12, 20)  # nodes along each side, tried in turn
+SIZES = ((12, 16), (20, 20))  # nodes along g and along y, tried in turn
 G_FIRST, OCTAVES_G, OCTAVES_Y, PARTS = -42, 70, 16, 8
 OUTSIDE = 2**16 - 1
 BLOCK = 4096  # samples at once, so that they stay in the processor's cache
@@ -84,26 +84,33 @@ def _fill(codes):
     for size in SIZES:
         if not codes:
             return
-        nodes = np.cos(np.pi * (np.arange(size) + 0.5) / size)
+        along_g, along_y = (np.cos(np.pi * (np.arange(count) + 0.5) / count) for count in size)
         octave, part = np.divmod(np.array(codes), PARTS)
         row, column = np.divmod(octave, OCTAVES_Y)
-        g = 2.0 ** (G_FIRST + row[:, None, None] + (1 + nodes[:, None]) / 2)
-        b = column[:, None, None] + (part[:, None, None] + (1 + nodes) / 2) / SPLIT[octave][:, None, None]
+        g = 2.0 ** (G_FIRST + row[:, None, None] + (1 + along_g[:, None]) / 2)
+        b = column[:, None, None] + (part[:, None, None] + (1 + along_y) / 2) / SPLIT[octave][:, None, None]
         g, b = np.broadcast_arrays(g, b)
         y = (2.0**b - 1) * np.maximum(g, 4.0)
-        values = by_terms(g.ravel(), y.ravel())[0].reshape(g.shape)
-        transform = np.cos(np.pi * np.arange(size)[:, None] * (np.arange(size) + 0.5) / size) * 2 / size
-        transform[0] /= 2
+        values = by_terms(g.ravel(), y.ravel(), derivatives=False)[0].reshape(g.shape)
+        by_g, by_y = (_transform(count) for count in size)
         tails = TAIL + NOISE * np.abs(values).max(axis=(1, 2))
-        CELLS.update((code, _powers(each, tail)) for code, each, tail in zip(codes, transform @ values @ transform.T, tails))
+        CELLS.update((code, _powers(each, tail)) for code, each, tail in zip(codes, by_g @ values @ by_y.T, tails))
         codes = [code for code in codes if CELLS[code] is None]
+
+
+@cache
+def _transform(count):
+    """Chebyshev coefficients from the values at the nodes."""
+    transform = np.cos(np.pi * np.arange(count)[:, None] * (np.arange(count) + 0.5) / count) * 2 / count
+    transform[0] /= 2
+    return transform
 
 
 def _powers(chebyshev, tail):
     """Coefficients of powers from Chebyshev's, without their tail, and of both derivatives; None if the tail has not died out."""
     large = np.abs(chebyshev) > tail
     n_g, n_y = (np.flatnonzero(large.any(axis=axis)).max() + 1 for axis in (1, 0))
-    if max(n_g, n_y) > len(chebyshev) - 2:
+    if n_g > len(chebyshev) - 2 or n_y > chebyshev.shape[1] - 2:
         return None
     cell = np.zeros((3, n_y, n_g))
     cell[0] = _to_powers(n_y) @ chebyshev[:n_g, :n_y].T @ _to_powers(n_g).T
