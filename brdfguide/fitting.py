@@ -16,7 +16,7 @@ SEARCH_SAMPLES = 400  # directions on which the starts are followed
 SEARCH_CHANNELS = 4
 NEAR_SAMPLES = 2000  # directions on which all channels come close
 SETTLE_VALUES, SETTLE_SAMPLES = 75_000, 8_000  # all of so many values settle the answer; of a larger table so many directions do, its error is over all
-HEAT, OUTRUN = 8, 1.5  # evaluations after which a start whose rms is this many times the best is followed no further
+HEAT, OUTRUN = 8, 1.5  # evaluations after which a start whose rms is this many times the best is followed no further; a model then settles on SETTLE_SAMPLES
 HOPELESS, LEAST_HOPELESS = 4.0, 0.5  # times the best error, and rms, beyond which a model is not refined
 ROBUST_ROUNDS, ROBUST_WIDTH = 4, 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
 
@@ -62,17 +62,28 @@ def label(model: Sum) -> str:
 
 
 @dataclass(frozen=True, eq=False)
+class Part:
+    """Some of the directions, all channels."""
+
+    rows: np.ndarray | slice  # of those on which the best models settle
+    measurement: Measurement
+    weights: np.ndarray  # (samples, channels)
+
+    def some(self, rows) -> "Part":
+        """Those of its rows; itself where that is all."""
+        return self if len(rows) == len(self.weights) else Part(rows, self.measurement[rows], self.weights[rows])
+
+
+@dataclass(frozen=True, eq=False)
 class Data:
     """A measurement made ready for many fits: what each stage looks at, chosen once."""
 
     whole: Measurement
-    used: np.ndarray  # rows of `whole` on which the answer is settled
-    settle: Measurement
-    settle_weights: np.ndarray  # (samples, channels)
-    near: Measurement  # enough directions to come close, all channels
-    near_weights: np.ndarray
-    search: Measurement  # few directions, few channels
-    search_weights: np.ndarray
+    used: np.ndarray  # rows of `whole` on which the best models settle
+    settle: Part  # these
+    fewer: Part  # for models that are far behind
+    near: Part  # enough to come close
+    search: Part  # few directions, few channels
     orders: list  # of the rows of `settle`
     segments: list  # of neighbours in each order
 
@@ -85,15 +96,13 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     used = measurement if len(seen) == len(measurement.brdf) else measurement[seen]
     weights = sample_weights(used, options.weights)
     rows = sampling.representative_rows(used, len(used.brdf) if used.brdf.size <= SETTLE_VALUES else SETTLE_SAMPLES)
-    settle = used if len(rows) == len(used.brdf) else used[rows]
-    thin, channels = starts.spread_rows(settle, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
-    search = settle[thin].of_channels(channels)
-    close = sampling.representative_rows(settle, NEAR_SAMPLES)
-    weights, orders = weights[rows], uncertainty.orderings(settle)
-    segments = [uncertainty.segments_of(settle, orders[0]), *map(uncertainty.stretches, orders[1:])]
-    return Data(
-        measurement, seen[rows], settle, weights, settle[close], weights[close], search, weights[thin][:, channels], orders, segments
-    )  # fmt: skip
+    settle = Part(slice(None), used, weights).some(rows)
+    fewer, near = (settle.some(sampling.representative_rows(settle.measurement, count)) for count in (SETTLE_SAMPLES, NEAR_SAMPLES))
+    thin, channels = starts.spread_rows(settle.measurement, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
+    search = Part(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])
+    orders = uncertainty.orderings(settle.measurement)
+    segments = [uncertainty.segments_of(settle.measurement, orders[0]), *map(uncertainty.stretches, orders[1:])]
+    return Data(measurement, seen[rows], settle, fewer, near, search, orders, segments)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,39 +125,37 @@ def fit(model: Sum, measurement: Measurement | Data, options: Options = Options(
     Raises InputError where nothing can be fitted.
     """
     data = measurement if isinstance(measurement, Data) else prepare(measurement, options)
-    return settle(search(model, data, options), data, options)
+    return settle(search(model, data, options), data, data.settle, options)
 
 
-def settle(searched: Search, data: Data, options: Options, hopeless: bool = False) -> Fit:
-    """The fit that a search leads to; a hopeless one is left where the search ended, and says so."""
+def settle(searched: Search, data: Data, on: Part | None, options: Options) -> Fit:
+    """The fit that a search leads to, on that part of the data; on none, it stays near where the search ended and says so."""
     began = perf_counter()
     scale, layout, found, evaluations = metric(options.metric), searched.layout, searched.ends, searched.evaluations
     model = layout.model
     start = found[0][0], _spread_over_channels(found[0][1], layout.channels)
-    weights = data.settle_weights
-    if hopeless or len(data.near.brdf) < len(data.settle.brdf):
-        best = _descend(layout, data.near, scale, data.near_weights, start, 1e-5)
+    hopeless, on = on is None, on or data.near
+    if hopeless or len(data.near.weights) < len(data.settle.weights):
+        best = _descend(layout, data.near, scale, start, 1e-5)
         start, evaluations = (best.shared, best.own), evaluations + best.evaluations
-    for _ in range(0 if hopeless else ROBUST_ROUNDS if options.robust else 1):
-        best = _descend(layout, data.settle, scale, weights, start, 1e-6)
+    for turn in range(0 if hopeless else ROBUST_ROUNDS if options.robust else 1):
+        on = replace(on, weights=_robust(on.weights, best.seen[0], on.measurement)) if turn else on
+        best = _descend(layout, on, scale, start, 1e-6)
         start, evaluations = (best.shared, best.own), evaluations + best.evaluations
-        if options.robust:
-            weights = _robust(weights, Misfit(layout, data.settle, scale, weights)(*start, False), data.settle)
-    settled = data.near if hopeless else data.settle
     values = layout.decode(*start)
     residuals = ln_residuals(model, data.whole, values)
     part = residuals[data.used]
     correlation, score = uncertainty.serial_correlation(part, data.orders)
-    variance = best.cost / max(np.count_nonzero(settled.usable) - layout.count, 1)
+    variance = best.cost / max(np.count_nonzero(on.measurement.usable) - layout.count, 1)
     stderr = uncertainty.standard_errors(layout, values, best.normal, variance, part, correlation)
     wrong = uncertainty.discrepancy(part, correlation, score)
     if wrong and not hopeless:
-        wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, best.seen, data.segments)
+        wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, best.seen, [each[on.rows] for each in data.segments])
         stderr = {key: np.maximum(error, wide[key]) for key, error in stderr.items()}
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
     warnings += [warning for warning in (wrong, _disagreement(layout, found)) if warning]
     wide = variance * uncertainty.serial_widening(correlation) * uncertainty.common_channels(part)
-    warnings = waves.in_place_of(warnings, waves.doubts(layout, settled, *start, wide, stderr))
+    warnings = waves.in_place_of(warnings, waves.doubts(layout, on.measurement, *start, wide, stderr))
     if hopeless:
         warnings.append(Finding("coarse", f"its error is more than {HOPELESS:g} times the best: searched for, not refined", "note"))
     if not best.converged:
@@ -173,11 +180,11 @@ def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = 
     for model in models:
         progress(f"searching {label(model)}")
         searches.append(search(model, data, options))
-    limit = HOPELESS * min((each.rms for each in searches), default=0.0)
-    fits = []
+    best, fits = min((each.rms for each in searches), default=0.0), []
     for each in searches:
         progress(f"fitting {label(each.layout.model)}")
-        fits.append(settle(each, data, options, hopeless=each.rms > max(limit, LEAST_HOPELESS)))
+        on = None if each.rms > max(HOPELESS * best, LEAST_HOPELESS) else data.fewer if each.rms > OUTRUN * best else data.settle
+        fits.append(settle(each, data, on, options))
     return tuple(fits)
 
 
@@ -226,17 +233,18 @@ def _with_options(model: Sum, options: Options) -> Sum:
 def search(model: Sum, data: Data, options: Options) -> Search:
     """Follows the grid's starts on few directions and channels."""
     began = perf_counter()
-    layout = Layout(_with_options(model, options), data.settle.brdf.shape[1], options.shape_per_channel)
-    narrow, scale = replace(layout, channels=data.search.brdf.shape[1]), metric(options.metric)
-    descend = lambda start, most: _descend(narrow, data.search, scale, data.search_weights, start, 1e-5, most)  # noqa: E731
-    ahead = [descend(narrow.encode(start), HEAT) for start in starts.grid_starts(narrow, data.search)]
+    few = data.search.measurement
+    layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
+    narrow, scale = replace(layout, channels=few.brdf.shape[1]), metric(options.metric)
+    descend = lambda start, most: _descend(narrow, data.search, scale, start, 1e-5, most)  # noqa: E731
+    ahead = [descend(narrow.encode(start), HEAT) for start in starts.grid_starts(narrow, few)]
     evaluations, best = sum(end.evaluations for end in ahead), min(end.cost for end in ahead)
     ends = []
     for end in ahead:
         if not end.converged and end.cost <= OUTRUN**2 * best:
             end = descend((end.shared, end.own), 100)
             evaluations += end.evaluations
-        ends.append((*narrow.in_order(end.shared, end.own), float(np.sqrt(end.cost / max(np.count_nonzero(data.search.usable), 1)))))
+        ends.append((*narrow.in_order(end.shared, end.own), float(np.sqrt(end.cost / max(np.count_nonzero(few.usable), 1)))))
     return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
 
 
@@ -251,10 +259,10 @@ def _spread_over_channels(own, channels: int):
     return np.stack([np.interp(np.arange(channels), at, column) for column in own.T], axis=1) if own.shape[1] else np.zeros((channels, 0))
 
 
-def _descend(layout: Layout, measurement: Measurement, scale: Metric, weights, start, tolerance: float, most: int = 400) -> levenberg.Minimum:
+def _descend(layout: Layout, part: Part, scale: Metric, start, tolerance: float, most: int = 400) -> levenberg.Minimum:
     low, high = layout.bounds(layout.shared)
     own_low, own_high = layout.bounds(layout.own)
-    misfit = Misfit(layout, measurement, scale, weights)
+    misfit = Misfit(layout, part.measurement, scale, part.weights)
     return levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=tolerance, most=most)
 
 
