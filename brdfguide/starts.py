@@ -8,7 +8,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from .measurement import Measurement
+from .measurement import Measurement, once
 from .misfit import SMALLEST, Layout
 from .models import Sum
 
@@ -23,10 +23,7 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
 
     Judged by the rms of ln(model/data) over a few hundred well-spread directions, all channels averaged, and by cube roots.
     """
-    rows = spread_rows(measurement, GRID_SAMPLES)
-    geom = measurement.geom[rows].at(np.atleast_1d(np.mean(measurement.geom.wavelength)))
-    data, usable = _channel_mean(measurement, rows)
-    geom, data = geom[usable], np.maximum(data[usable], FAINTEST * np.max(data[usable]))
+    few, geom, data = _judged(measurement)
     axes, bases = zip(*(_term_grid(layout, term, geom) for term in layout.model.terms))
     shapes = [shape for shape in product(*(range(len(axis)) for axis in axes)) if _in_order(layout, shape)]
     if len(shapes) > MOST_SHAPES:
@@ -48,7 +45,16 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
     brightest = int(np.argmin(np.sum((np.cbrt(model) - np.cbrt(data)) ** 2, axis=1)))
     if all(_apart(places[brightest], places[other], axes) for other in picked):
         picked.append(brightest)
-    return [amplitudes_by_channel(layout, measurement[rows], _values(layout.model, axes, places[each], amplitudes[each])) for each in picked]
+    return [amplitudes_by_channel(layout, few, _values(layout.model, axes, places[each], amplitudes[each])) for each in picked]
+
+
+@once
+def _judged(measurement: Measurement):
+    """Few of the directions: all channels, and the directions and values of the mean channel."""
+    few = measurement[spread_rows(measurement, GRID_SAMPLES)]
+    data, usable = _channel_mean(few)
+    data, geom = data[usable], few.geom.at(np.atleast_1d(np.mean(few.geom.wavelength)))[usable]
+    return few, geom, np.maximum(data, FAINTEST * np.max(data))
 
 
 def amplitudes_by_channel(layout: Layout, measurement: Measurement, values: dict) -> dict:
@@ -174,9 +180,9 @@ def _values(model: Sum, axes, places, amplitudes) -> Mapping:
     return values
 
 
-def _channel_mean(measurement: Measurement, rows):
+def _channel_mean(measurement: Measurement):
     """Geometric mean over the channels that were measured, (samples,), and where there is any."""
-    usable = measurement.usable[rows]
-    logs = np.where(usable, np.log(np.where(usable, measurement.brdf[rows], 1.0)), 0.0)
+    usable = measurement.usable
+    logs = np.where(usable, np.log(np.where(usable, measurement.brdf, 1.0)), 0.0)
     count = usable.sum(axis=1)
     return np.exp(logs.sum(axis=1) / np.maximum(count, 1)), count > 0

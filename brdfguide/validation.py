@@ -7,7 +7,7 @@ import numpy as np
 from . import fitting, levenberg, starts
 from .fitting import Fit, Options
 from .geometry import in_plane
-from .measurement import Finding, Measurement
+from .measurement import Finding, Measurement, once
 from .misfit import Layout, Misfit, metric
 from .ranking import Ranking, recommend
 
@@ -31,8 +31,7 @@ def held_out(fit: Fit, used: Measurement, options: Options = Options()) -> HeldO
 
     `used` is what `thinned` leaves of the measurement that the fit was made to.
     """
-    angles = used.geom.theta_i_deg[:, 0]
-    folds = _folds(angles)
+    folds = _divided(used)
     if len(folds) < 2:
         return None
     layout = Layout(fit.model, used.brdf.shape[1], options.shape_per_channel)
@@ -42,14 +41,13 @@ def held_out(fit: Fit, used: Measurement, options: Options = Options()) -> HeldO
     low, high = layout.bounds(layout.shared)
     own_low, own_high = layout.bounds(layout.own)
     squares, counts, last = 0.0, 0, np.nan
-    for inside in folds:
-        rest = used[~inside]
+    for rest, inside in folds:
         misfit = Misfit(layout, rest, metric(options.metric), np.ones_like(rest.brdf))
         end = levenberg.minimise(misfit, *start, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-4, most=20)
-        residuals = fitting.ln_residuals(fit.model, used[inside], layout.decode(end.shared, end.own))
+        residuals = fitting.ln_residuals(fit.model, inside, layout.decode(end.shared, end.own))
         squares, counts = squares + np.nansum(residuals**2), counts + np.count_nonzero(np.isfinite(residuals))
         last = float(np.sqrt(np.nanmean(residuals**2)))
-    return HeldOut(float(np.sqrt(squares / counts)), last, float(angles[folds[-1]].max()))
+    return HeldOut(float(np.sqrt(squares / counts)), last, float(folds[-1][1].geom.theta_i_deg.max()))
 
 
 def growth(fit: Fit, measurement: Measurement) -> dict | None:
@@ -99,6 +97,12 @@ def thinned(measurement: Measurement) -> Measurement:
     seen = measurement[np.any(measurement.usable, axis=1)]
     rows = starts.spread_rows(seen, SAMPLES)
     return seen[rows].of_channels(fitting.few_channels(measurement.brdf.shape[1]))
+
+
+@once
+def _divided(measurement: Measurement) -> list[tuple[Measurement, Measurement]]:
+    """What is kept and what is held out, in turn."""
+    return [(measurement[~inside], measurement[inside]) for inside in _folds(measurement.geom.theta_i_deg[:, 0])]
 
 
 def _folds(angles) -> list[np.ndarray]:

@@ -28,10 +28,11 @@ ROLES = {
     r"|cosinecorrectedbrdf|cosinecorrectedbsdf|cosineweightedbrdf|dsf|ars|angleresolvedscatter|angleresolvedscattering"
     r"|reflectancefactor|brf|rf|hcrf|bicrf|radiancefactor|pibrdf|brdfpi|brdfxpi|reflectance|intensity)",
 }
-ROLES = {role: re.compile(pattern) for role, pattern in ROLES.items()}
 QUANTITY = {
-    "brdf-cos": re.compile(r"(brdf|bsdf|fr|f)(x|times)?cos(theta)?[ro]?|cosbrdf|cc(brdf|bsdf)|cosine(corrected|weighted)(brdf|bsdf)|dsf|ars|angleresolvedscatter(ing)?"),
-    "reflectance-factor": re.compile(r"reflectancefactor|brf|rf|hcrf|bicrf|radiancefactor|pibrdf|brdf(x)?pi"),
+    "brdf-cos": (
+        r"(brdf|bsdf|fr|f)(x|times)?cos(theta)?[ro]?|cosbrdf|cc(brdf|bsdf)|cosine(corrected|weighted)(brdf|bsdf)|dsf|ars|angleresolvedscatter(ing)?"
+    ),
+    "reflectance-factor": r"reflectancefactor|brf|rf|hcrf|bicrf|radiancefactor|pibrdf|brdf(x)?pi",
 }
 COLOURS = {"r": "R", "red": "R", "g": "G", "green": "G", "b": "B", "blue": "B", "x": "X", "y": "Y", "z": "Z"}
 UNITS = {
@@ -63,21 +64,26 @@ def understood(name: str, place: int) -> Column:
     um = _wavelength(name)
     if um is not None:
         base, _ = _key_and_unit(re.sub(r"[=@:]*\s*\d+(\.\d+)?[\s_]*(nm|um|µm|microns?)?$", "", _flat(name).rstrip(")]} ")))
-        base = "" if ROLES["wavelength"].fullmatch(base) else base
-        role = "stderr" if base and ROLES["stderr"].fullmatch(base) else "value" if not base or ROLES["value"].fullmatch(base) else None
+        base = "" if _is("wavelength", base) else base
+        role = "stderr" if base and _is("stderr", base) else "value" if not base or _is("value", base) else None
         return Column(name, place, role, None, f"{um * 1000:g}nm", um, _quantity(base))
     if "cos" in key or re.search(r"cos\W*theta", _flat(name)):
         if re.search(r"brdf|bsdf|\bf_?r\b", _flat(name)):
             return Column(name, place, "value", quantity="brdf-cos")
     colour, rest = _colour(name)
-    if colour and (not rest or ROLES["value"].fullmatch(rest) or ROLES["stderr"].fullmatch(rest)):
-        role = "stderr" if rest and ROLES["stderr"].fullmatch(rest) else "value"
+    if colour and (not rest or _is("value", rest) or _is("stderr", rest)):
+        role = "stderr" if rest and _is("stderr", rest) else "value"
         return Column(name, place, role, None, colour, None, _quantity(rest))
     return Column(name, place, role_of(key), unit, quantity=_quantity(key))
 
 
 def role_of(key: str) -> str | None:
-    return next((role for role, pattern in ROLES.items() if pattern.fullmatch(key)), None)
+    return next((role for role in ROLES if _is(role, key)), None)
+
+
+def _is(role: str, key: str) -> bool:
+    """Whether a name has this role; the pattern is compiled when first asked for, since most files need few of them."""
+    return re.fullmatch(ROLES[role], key) is not None
 
 
 def table(names: list[str]) -> list[Column]:
@@ -160,4 +166,4 @@ def _colour(name: str):
 
 
 def _quantity(key: str) -> str | None:
-    return next((quantity for quantity, pattern in QUANTITY.items() if key and pattern.fullmatch(key)), None)
+    return next((quantity for quantity, pattern in QUANTITY.items() if key and re.fullmatch(pattern, key)), None)
