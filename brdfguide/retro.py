@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import conventions
-from .measurement import Measurement
+from .measurement import Measurement, row_median
 
 STEEP_DEG = 12.0  # incidences nearer to the normal do not separate source and mirror direction
 
@@ -23,8 +23,7 @@ def lobe(measurement: Measurement) -> Retro | None:
     """None where nothing was measured within 6 degrees of the source at incidences beyond 12 degrees."""
     geom = measurement.geom
     usable = np.any(measurement.usable, axis=1)
-    level = np.full(len(geom), np.nan)
-    level[usable] = np.nanmedian(np.where(measurement.usable[usable], measurement.brdf[usable], np.nan), axis=1)
+    level = row_median(np.where(measurement.usable, measurement.brdf, np.nan))
     source = conventions.retro_distance_deg(geom)[:, 0]
     mirror = np.degrees(2 * np.arcsin(np.minimum(0.5 * np.sqrt(geom.mirror_distance2[:, 0]), 1.0)))
     counted = usable & ((mirror > np.minimum(geom.theta_i_deg[:, 0], 12.0)) | (mirror < source))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .measurement import Measurement, once, rows_by_tenth
+from .measurement import Measurement, once, row_median, rows_by_tenth
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 # how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
@@ -78,9 +78,7 @@ def dark_edges(measurement: Measurement) -> np.ndarray:
     mask = np.zeros(len(measurement.geom), bool)
     if len(mask) > DENSE:
         return mask
-    level = _ln(measurement)
-    counted = np.any(np.isfinite(level), axis=1)
-    level = np.where(counted, np.nanmedian(np.where(counted[:, None], level, 0.0), axis=1), np.nan)
+    level = row_median(_ln(measurement))
     distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
     for rows, angle in _scans(measurement):
         keep = np.isfinite(level[rows]) & (np.abs(angle) >= EDGE_DEG - 8)

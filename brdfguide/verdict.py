@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .measurement import Measurement
+from .measurement import Measurement, row_median
 
 CANNOT_TELL = "cannot tell from this"
 LEAST_METAL = 0.45  # of the metals known to us titanium and tungsten come nearest to it (Westin et al. 2004, Figure 1: above 0.5)
@@ -83,7 +83,7 @@ class _Seen:
         self.values, self.rows = values, measurement.incidences
         self.from_mirror = np.degrees(2 * np.arcsin(np.minimum(np.sqrt(geom.mirror_distance2[:, 0]) / 2, 1.0)))
         self.theta_r = geom.theta_r_deg[:, 0]
-        self.grey = _row_median(values)
+        self.grey = row_median(values)
         self.low = [theta for theta in self.rows if theta <= LOW_DEG and self._count(theta) >= 5]
 
     def numbers(self):
@@ -193,15 +193,7 @@ class _Seen:
 
 def _channel_medians(values: np.ndarray) -> np.ndarray:
     """Median over the rows that have a value; NaN where none has."""
-    return _row_median(values.T)
-
-
-def _row_median(values: np.ndarray) -> np.ndarray:
-    """Median over the channels that have a value; NaN where none has."""
-    some = np.isfinite(values).any(axis=1)
-    out = np.full(len(values), np.nan)
-    out[some] = np.nanmedian(values[some], axis=1)
-    return out
+    return row_median(values.T)
 
 
 def _span(channels: np.ndarray) -> float:

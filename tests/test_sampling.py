@@ -7,6 +7,8 @@ from brdfguide import fitting, formats, models, sampling
 from brdfguide.geometry import Geometry, rows
 from brdfguide.measurement import Measurement
 
+from . import synthetic
+
 
 def scatter(size: int, seed: int = 3) -> Measurement:
     draw = np.random.default_rng(seed)
@@ -68,3 +70,19 @@ def test_of_a_narrow_lobe_the_whole_changes_no_answer_of_a_subset_by_more_than_i
     coarse, fine = (fitting.fit(models.get(model), each) for each in (sampling.subset(table, 16_000, seed), table))
     for name, stderr in coarse.stderr.items():
         assert np.all(np.abs(coarse.values[name] - fine.values[name]) <= stderr), name
+
+
+def test_models_far_behind_settle_on_fewer_directions_and_stay_within_their_errors_with_seed_6():
+    """Sizes on both sides of what settles all together: 12,000 directions of three channels, and 26,000."""
+    truth = {"lambertian.albedo": np.array([0.3, 0.2, 0.1]), "ggx.alpha": 0.2, "ggx.n": 1.5}
+    names = ["lambertian+ggx", "lambertian+phong", "lambertian+cook-torrance"]
+    for directions in (12_000, 26_000):
+        data = synthetic.surface(models.get("lambertian+ggx"), synthetic.hemisphere(directions, seed=6), truth, noise=0.03, seed=6, channels=3)
+        right, *wrong = fitting.fit_all([models.get(name) for name in names], data)
+        assert not right.has("discrepancy") and all(found.has("discrepancy") for found in wrong)
+        assert all(np.all(np.isfinite(found.residuals)) for found in (right, *wrong))
+        for found in wrong:
+            assert found.rms_ln > fitting.OUTRUN * right.rms_ln
+            alone = fitting.fit(found.model, data)  # by itself it is not behind
+            for name, stderr in found.stderr.items():
+                assert np.all(np.abs(found.values[name] - alone.values[name]) <= 2 * stderr), (directions, found.name, name)
