@@ -8,7 +8,7 @@ import numpy as np
 
 from . import levenberg, sampling, starts, uncertainty, waves
 from .errors import InputError, choices
-from .measurement import Finding, Measurement
+from .measurement import Finding, Measurement, once
 from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
 from .models import Sum
 
@@ -90,19 +90,20 @@ class Data:
 
 def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     """Chooses the directions to search on and to settle on. Raises InputError where there is nothing to fit."""
-    seen = np.flatnonzero(np.any(measurement.usable, axis=1))
-    if not len(seen):
+    seen = np.any(measurement.usable, axis=1)
+    if not seen.any():
         raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
-    used = measurement if len(seen) == len(measurement.brdf) else measurement[seen]
-    weights = sample_weights(used, options.weights)
-    rows = sampling.representative_rows(used, len(used.brdf) if used.brdf.size <= SETTLE_VALUES else SETTLE_SAMPLES)
-    settle = Part(slice(None), used, weights) if len(rows) == len(weights) else Part(slice(None), used[rows], weights[rows])
+    size = np.count_nonzero(seen)
+    rows = sampling.representative_rows(measurement, size if size * measurement.brdf.shape[1] <= SETTLE_VALUES else SETTLE_SAMPLES, among=seen)
+    settle = Part(slice(None), measurement, sample_weights(measurement, options.weights))
+    if len(rows) < len(seen):
+        settle = Part(slice(None), measurement[rows], settle.weights[rows])
     fewer, near = (settle.some(sampling.representative_rows(settle.measurement, count)) for count in (SETTLE_SAMPLES, NEAR_SAMPLES))
     thin, channels = starts.spread_rows(settle.measurement, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
     search = Part(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])
     orders = uncertainty.orderings(settle.measurement)
     segments = [uncertainty.segments_of(settle.measurement, orders[0]), *map(uncertainty.stretches, orders[1:])]
-    return Data(measurement, seen[rows], settle, fewer, near, search, orders, segments)
+    return Data(measurement, rows, settle, fewer, near, search, orders, segments)
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,9 +191,15 @@ def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = 
 
 def ln_residuals(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
     """ln(model/data), (samples, channels), NaN where nothing was measured."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratio = np.maximum(seen(model, measurement, values), SMALLEST) / np.where(measurement.usable, measurement.brdf, np.nan)
-        return np.log(ratio)
+    ratio = np.maximum(seen(model, measurement, values), SMALLEST)
+    ratio /= _known(measurement)
+    return np.log(ratio, out=ratio)
+
+
+@once
+def _known(measurement: Measurement) -> np.ndarray:
+    """The values, NaN where there is none to fit."""
+    return np.where(measurement.usable, measurement.brdf, np.nan)
 
 
 def sample_weights(measurement: Measurement, kind: str = "auto") -> np.ndarray:
@@ -216,9 +223,9 @@ def sample_weights(measurement: Measurement, kind: str = "auto") -> np.ndarray:
 
 def incidence_weights(measurement: Measurement) -> np.ndarray:
     """(samples, 1): every incidence angle counts the same, however densely it was scanned."""
-    weights = np.empty((len(measurement.brdf), 1))
+    weights, seen = np.empty((len(measurement.brdf), 1)), np.any(measurement.usable, axis=1)
     for rows in measurement.theta_i_groups.values():
-        weights[rows] = 1 / len(rows)
+        weights[rows] = 1 / max(np.count_nonzero(seen[rows]), 1)
     return weights
 
 

@@ -93,7 +93,10 @@ class Measurement:
         return replace(self, geom=geom, brdf=self.brdf[:, picked], channels=channels, stderr=stderr)
 
     def noting(self, *findings: Finding) -> "Measurement":
-        return replace(self, findings=self.findings + findings)
+        """The same with more findings, and with what was derived from the values so far."""
+        other = replace(self, findings=self.findings + findings)
+        other.__dict__.update({key: value for key, value in self.__dict__.items() if key not in other.__dict__})
+        return other
 
 
 def once(function):

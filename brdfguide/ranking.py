@@ -111,10 +111,11 @@ def incidence_bins(measurement: Measurement) -> tuple[np.ndarray, np.ndarray]:
 
 def by_theta_i(residuals, angles, places) -> dict[float, float]:
     """rms ln at each of `incidence_bins`."""
-    seen = np.isfinite(residuals)
-    filled = np.where(seen, residuals, 0.0)
-    squares = np.bincount(places, np.einsum("sc,sc->s", filled, filled), minlength=len(angles))  # a sum over few channels is slow
-    counts = np.bincount(places, np.einsum("sc->s", seen, dtype=float), minlength=len(angles))
+    squares = np.einsum("sc,sc->s", residuals, residuals)  # a sum over few channels is slow
+    counts = np.full(len(squares), float(residuals.shape[1]))
+    lacking = np.flatnonzero(np.isnan(squares))
+    squares[lacking], counts[lacking] = np.nansum(residuals[lacking] ** 2, axis=1), np.count_nonzero(np.isfinite(residuals[lacking]), axis=1)
+    squares, counts = (np.bincount(places, each, minlength=len(angles)) for each in (squares, counts))
     return {float(angle): float(np.sqrt(square / count)) for angle, square, count in zip(angles, squares, counts) if count}
 
 

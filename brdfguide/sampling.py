@@ -5,7 +5,7 @@ from random import Random
 
 import numpy as np
 
-from .measurement import Finding, Measurement
+from .measurement import Finding, Measurement, once
 
 THETA_I_BANDS = 16
 TILT_BANDS = 24
@@ -32,21 +32,27 @@ def subset(measurement: Measurement, count: int = 4000, seed: int = 0) -> Measur
     return replace(picked, weights=None).noting(note)
 
 
-def representative_rows(measurement: Measurement, count: int, seed: int = 0) -> np.ndarray:
-    """The row numbers behind `subset`, ascending; all of them where there are no more than `count`."""
-    size = len(measurement.geom)
+def representative_rows(measurement: Measurement, count: int, seed: int = 0, among=None) -> np.ndarray:
+    """The row numbers behind `subset`, ascending; all of them where there are no more than `count`. `among` masks the rows to draw from."""
+    size = len(measurement.geom) if among is None else np.count_nonzero(among)
     if size <= count:
-        return np.arange(size)
-    weight = np.ones(size) if measurement.weights is None else measurement.weights[:, 0]
-    order = _by_stratum(measurement.geom, weight)
-    reach = np.cumsum(weight[order])
+        return np.arange(size) if among is None else np.flatnonzero(among)
+    order = _by_stratum(measurement)
+    order = order if among is None else order[among[order]]
+    reach = np.cumsum(_weight(measurement)[order])
     draw = Random(seed).random  # numpy's generators take longer to import than this takes to run
     draws = (np.arange(count) + [draw() for _ in range(count)]) * (reach[-1] / count)
     return np.unique(order[np.searchsorted(reach, draws, side="right").clip(max=size - 1)])
 
 
-def _by_stratum(geom, weight) -> np.ndarray:
+def _weight(measurement: Measurement) -> np.ndarray:
+    return np.ones(len(measurement.geom)) if measurement.weights is None else measurement.weights[:, 0]
+
+
+@once
+def _by_stratum(measurement: Measurement) -> np.ndarray:
     """Row numbers along a path that winds through the strata, neighbours on it being neighbours in all three angles."""
+    geom, weight = measurement.geom, _weight(measurement)
     incidence = _bands(geom.cos_i[:, 0], weight, THETA_I_BANDS)
     tilt = _bands(geom.tan2_h[:, 0], weight, TILT_BANDS)
     azimuth = _bands(np.abs(np.remainder(geom.phi_deg[:, 0], 360.0) - 180.0), weight, AZIMUTH_BANDS)
