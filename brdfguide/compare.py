@@ -20,5 +20,5 @@ def compare(
     fits = fitting.fit_all(candidates, measurement, options, progress)
     if not any(fit.converged for fit in fits):
         raise NoAnswer(f"{measurement.name}: none of {len(fits)} models converged; try --robust, or --theta-max to leave out doubtful angles")
-    ranked = ranking.rank(fits, measurement, options.metric)
+    ranked = ranking.rank(fits, measurement, options)
     return validation.validated(ranked, measurement, options, lambda name: progress(f"leaving angles out: {name}"))

@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from . import levenberg, sampling, starts, uncertainty, waves
+from . import levenberg, sampling, starts, uncertainty, waves, weights
 from .errors import InputError, choices
 from .measurement import Finding, Measurement, once
 from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
@@ -86,6 +86,7 @@ class Data:
     search: Part  # few directions, few channels
     orders: list  # of the rows of `settle`
     segments: list  # of neighbours in each order
+    votes: np.ndarray | None  # of the directions of `whole`
 
 
 def prepare(measurement: Measurement, options: Options = Options()) -> Data:
@@ -95,7 +96,7 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
         raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
     size = np.count_nonzero(seen)
     rows = sampling.representative_rows(measurement, size if size * measurement.brdf.shape[1] <= SETTLE_VALUES else SETTLE_SAMPLES, among=seen)
-    settle = Part(slice(None), measurement, sample_weights(measurement, options.weights))
+    settle = Part(slice(None), measurement, weights.of_samples(measurement, options.weights))
     if len(rows) < len(seen):
         settle = Part(slice(None), measurement[rows], settle.weights[rows])
     fewer, near = (settle.some(sampling.representative_rows(settle.measurement, count)) for count in (SETTLE_SAMPLES, NEAR_SAMPLES))
@@ -103,7 +104,7 @@ def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     search = Part(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])
     orders = uncertainty.orderings(settle.measurement)
     segments = [uncertainty.segments_of(settle.measurement, orders[0]), *map(uncertainty.stretches, orders[1:])]
-    return Data(measurement, rows, settle, fewer, near, search, orders, segments)
+    return Data(measurement, rows, settle, fewer, near, search, orders, segments, weights.votes(measurement, options.weights))
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +149,12 @@ def settle(searched: Search, data: Data, on: Part | None, options: Options) -> F
     part = residuals[data.used]
     correlation, score = uncertainty.serial_correlation(part, data.orders)
     variance = best.cost / max(np.count_nonzero(on.measurement.usable) - layout.count, 1)
-    stderr = uncertainty.standard_errors(layout, values, best.normal, variance, part, correlation)
+    if data.votes is None:
+        variances = best.normal.variances(variance)
+    else:  # they say how much a value counts, not how sure it is
+        spread = np.sqrt(variance * data.votes[data.used][on.rows]) * np.ones(layout.channels)
+        variances = best.normal.scatter(spread, *best.seen[1:])
+    stderr = uncertainty.standard_errors(layout, values, *variances, part, correlation)
     wrong = uncertainty.discrepancy(part, correlation, score)
     if wrong and not hopeless:
         wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, best.seen, [each[on.rows] for each in data.segments])
@@ -162,7 +168,7 @@ def settle(searched: Search, data: Data, on: Part | None, options: Options) -> F
     if not best.converged:
         warnings.append(Finding("not-converged", "the search was still moving when it was stopped", "warning", "do not use the values"))
     return Fit(
-        model, values, stderr, residuals, float(np.sqrt(np.nanmean(residuals**2))), layout.count,
+        model, values, stderr, residuals, weights.rms(residuals, data.votes), layout.count,
         evaluations, searched.seconds + perf_counter() - began, best.converged, tuple(warnings),
     )  # fmt: skip
 
@@ -200,33 +206,6 @@ def ln_residuals(model: Sum, measurement: Measurement, values: Mapping) -> np.nd
 def _known(measurement: Measurement) -> np.ndarray:
     """The values, NaN where there is none to fit."""
     return np.where(measurement.usable, measurement.brdf, np.nan)
-
-
-def sample_weights(measurement: Measurement, kind: str = "auto") -> np.ndarray:
-    """Weights (samples, channels) with mean 1: from standard errors, from what each direction stands for, or all alike.
-
-    `auto` takes the standard errors where the data bring them, else the sampling weights of a table, else 1.
-    """
-    if kind not in ("auto", "none", "stderr", "sampling"):
-        raise choices("weighting", kind, ("auto", "none", "stderr", "sampling"))
-    weights = np.ones_like(measurement.brdf)
-    if kind == "stderr" and measurement.stderr is None:
-        raise InputError(f"{measurement.name}: the data bring no standard errors to weigh by")
-    if kind in ("auto", "stderr") and measurement.stderr is not None:
-        relative = np.where(measurement.usable, measurement.stderr / np.where(measurement.usable, measurement.brdf, 1.0), np.nan)
-        floor = 0.1 * np.nanmedian(relative)  # one lucky sample must not decide
-        weights = np.where(np.isfinite(relative), 1 / np.maximum(relative, max(floor, 1e-12)) ** 2, 0.0)
-    elif kind == "sampling" or (kind == "auto" and measurement.weights is not None):
-        weights = weights * (measurement.weights if measurement.weights is not None else incidence_weights(measurement))
-    return weights / np.mean(weights[measurement.usable])
-
-
-def incidence_weights(measurement: Measurement) -> np.ndarray:
-    """(samples, 1): every incidence angle counts the same, however densely it was scanned."""
-    weights, seen = np.empty((len(measurement.brdf), 1)), np.any(measurement.usable, axis=1)
-    for rows in measurement.theta_i_groups.values():
-        weights[rows] = 1 / max(np.count_nonzero(seen[rows]), 1)
-    return weights
 
 
 def _with_options(model: Sum, options: Options) -> Sum:

@@ -41,6 +41,21 @@ class Normal:
         shared, inverse_own, lever = self._inverses
         return shared, inverse_own + lever @ shared @ np.swapaxes(lever, 1, 2)
 
+    def variances(self, variance: float) -> tuple[np.ndarray, np.ndarray]:
+        """Of the shared (p,) and of each channel's own (channels, q) parameters, where every residual has this `variance`."""
+        shared, own = self.covariance()
+        return variance * shared.diagonal(), variance * own.diagonal(0, 1, 2)
+
+    def scatter(self, spread, j_shared, j_own) -> tuple[np.ndarray, np.ndarray]:
+        """The same where each residual has a standard deviation of its own, `spread` (samples, channels): a sandwich."""
+        shared, inverse_own, lever = self._inverses
+        pull, own_pull = j_shared * spread.T[:, :, None], j_own * spread.T[:, :, None]
+        moved = (pull - own_pull @ lever) @ shared
+        by_channel = np.swapaxes(moved, 1, 2) @ moved
+        of_others = lever @ (by_channel.sum(0) - by_channel) @ np.swapaxes(lever, 1, 2)
+        own_moved = own_pull @ inverse_own - moved @ np.swapaxes(lever, 1, 2)
+        return by_channel.sum(0).diagonal(), np.sum(own_moved**2, axis=1) + of_others.diagonal(0, 1, 2)
+
     def influence(self, r, j_shared, j_own) -> tuple[np.ndarray, np.ndarray]:
         """(JᵀJ)⁻¹ Jᵀr sample by sample: how far each moves the shared (samples, p) and each channel's own (channels, samples, q) parameters."""
         shared, inverse_own, lever = self._inverses

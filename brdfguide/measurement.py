@@ -35,7 +35,6 @@ class Measurement:
     brdf: np.ndarray
     channels: tuple[str, ...] = ("brdf",)
     stderr: np.ndarray | None = None  # standard errors [1/sr], in the shape of brdf
-    weights: np.ndarray | None = None  # (samples, 1): what each direction stands for; None: all alike
     solid_angle: float | None = None  # of the detector [sr]
     name: str = ""
     format: str = ""
@@ -82,7 +81,7 @@ class Measurement:
     def __getitem__(self, rows) -> "Measurement":
         """The same for some of the rows: a slice, mask or list of row numbers."""
         pick = lambda values: None if values is None else values[rows]  # noqa: E731
-        return replace(self, geom=self.geom[rows], brdf=self.brdf[rows], stderr=pick(self.stderr), weights=pick(self.weights))
+        return replace(self, geom=self.geom[rows], brdf=self.brdf[rows], stderr=pick(self.stderr))
 
     def of_channels(self, picked) -> "Measurement":
         """The same for some of the channels, by their numbers."""

@@ -7,8 +7,8 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from . import costs, sampling, uncertainty
-from .fitting import Fit
+from . import costs, sampling, uncertainty, weights
+from .fitting import Fit, Options
 from .measurement import Finding, Measurement
 from .misfit import METRICS, evaluate
 
@@ -49,18 +49,20 @@ class Ranking:
     noise: float  # relative standard deviation of a single value, estimated from neighbours
     winners: dict[str, str]  # by metric
     warnings: tuple[Finding, ...] = ()
+    weighing: tuple[Finding, ...] = ()  # what weighs the values
 
 
-def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> Ranking:
+def rank(fits: Sequence[Fit], measurement: Measurement, options: Options = Options()) -> Ranking:
     """Fits in order of error; ties are broken by fewest parameters, then by operations.
 
     The difference from the best is taken pointwise, and its standard error over segments of neighbouring
     directions. Two models whose predictions differ by less than the noise of a single value also tie.
     """
-    part = sampling.representative_rows(measurement, COMPARED_SAMPLES)
+    metric, part, votes = options.metric, sampling.representative_rows(measurement, COMPARED_SAMPLES), weights.votes(measurement, options.weights)
     compared = measurement if len(part) == len(measurement.brdf) else measurement[part]
+    votes = None if votes is None else votes[part]
     residuals = [fit.residuals[part] for fit in fits]
-    errors = [{**all_errors(each, compared), "ln": fit.rms_ln} for each, fit in zip(residuals, fits)]
+    errors = [{**all_errors(each, compared, votes), "ln": fit.rms_ln} for each, fit in zip(residuals, fits)]
     # errors alike to five digits are alike, and the simpler comes first
     order = sorted(range(len(fits)), key=lambda i: (not np.isfinite(errors[i][metric]), float(f"{errors[i][metric]:.5g}"), fits[i].free))
     best = residuals[order[0]]
@@ -71,8 +73,8 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     rows = []
     for place, index in enumerate(order):
         fit = fits[index]
-        behind, error = difference(residuals[index], best, segments)
-        apart = float(np.sqrt(np.nanmean((residuals[index] - best) ** 2)))
+        behind, error = difference(residuals[index], best, segments, votes)
+        apart = weights.rms(residuals[index] - best, votes)
         tied = index == order[0] or apart < noise or behind < REAL * error
         front = not any(_dominates(errors[other], times[other], errors[index], times[index], metric) for other in order)
         rows.append(Row(
@@ -82,16 +84,16 @@ def rank(fits: Sequence[Fit], measurement: Measurement, metric: str = "ln") -> R
     rows = _with_ranks(rows)
     recommended, because = recommend(rows)
     winners = {name: fits[_winner(name, fits, errors)].name for name in METRICS}
-    return Ranking(tuple(rows), recommended, because, metric, noise, winners, _overall(rows, winners, noise))
+    return Ranking(tuple(rows), recommended, because, metric, noise, winners, _overall(rows, winners, noise), weights.stated(measurement, options.weights))
 
 
-def all_errors(residuals, measurement: Measurement) -> dict[str, float]:
-    """The rms error on every scale, relative to the data's own rms on it where the scale is not logarithmic."""
+def all_errors(residuals, measurement: Measurement, votes=None) -> dict[str, float]:
+    """The rms error on every scale, relative to the data's own rms on it where the scale is not logarithmic; `votes` as in `weights.rms`."""
     data = np.where(np.isfinite(residuals), measurement.brdf, np.nan)
     third = np.exp(np.minimum(residuals, 300.0) / 3)
     ratio = third**3
     cosine = measurement.geom.cos_i * measurement.geom.cos_r
-    root = lambda values: float(np.sqrt(np.nanmean(values**2)))  # noqa: E731
+    root = lambda values: weights.rms(values, votes)  # noqa: E731
     return {
         "ln": root(residuals),
         "cube-root": root(np.cbrt(data) * (third - 1)) / root(np.cbrt(data)),
@@ -119,7 +121,7 @@ def by_theta_i(residuals, angles, places) -> dict[float, float]:
     return {float(angle): float(np.sqrt(square / count)) for angle, square, count in zip(angles, squares, counts) if count}
 
 
-def difference(one, best, segments) -> tuple[float, float]:
+def difference(one, best, segments, votes=None) -> tuple[float, float]:
     """How far one rms lies behind the other, and the standard error of that.
 
     rms_a - rms_b = mean(a² - b²)/(rms_a + rms_b)   and   a² - b² = (a - b)² + 2 b (a - b)
@@ -132,7 +134,7 @@ def difference(one, best, segments) -> tuple[float, float]:
     """
     seen = np.isfinite(one - best)
     count = max(np.count_nonzero(seen), 1)
-    one, best = np.where(seen, one, 0.0), np.where(seen, best, 0.0)
+    one, best = (np.where(seen, each if votes is None else each * np.sqrt(votes), 0.0) for each in (one, best))
     apart = one - best
     total = sqrt(np.vdot(one, one) / count) + sqrt(np.vdot(best, best) / count)
     squares = np.einsum("sc,sc->s", apart, apart)

@@ -96,16 +96,15 @@ def serial_widening(correlation: float) -> float:
     return (1 + correlation) / (1 - min(correlation, 0.95))
 
 
-def standard_errors(layout: Layout, values: dict, normal: Normal, variance: float, residuals: np.ndarray, correlation: float) -> dict:
+def standard_errors(layout: Layout, values: dict, shared, own, residuals: np.ndarray, correlation: float) -> dict:
     """Standard error of each free parameter, in its own unit; infinite where the data say nothing.
 
-    s² (JᵀJ)⁻¹ with the `variance` s² of one residual, widened where neighbours or channels err together: (1+ρ)/(1-ρ) for a serial
-    correlation ρ, and the number of channels that say the same for what all channels share.
+    From variances of the shared (p,) and own (channels, q) coordinates by residuals that know nothing of each other, widened where
+    neighbours or channels err together: (1+ρ)/(1-ρ) for a serial correlation ρ, and the number of channels that say the same for
+    what all channels share.
     """
-    variance = variance * serial_widening(correlation)
-    shared, own = normal.covariance()
-    together = common_channels(residuals)
-    return _in_units(layout, values, variance * together * np.diag(shared), variance * np.einsum("cqq->cq", own))
+    wider = serial_widening(correlation)
+    return _in_units(layout, values, wider * common_channels(residuals) * shared, wider * own)
 
 
 def errors_of_a_wrong_model(layout: Layout, values: dict, normal: Normal, misfit, segments) -> dict:

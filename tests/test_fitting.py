@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from brdfguide import candidates, fitting, models
+from brdfguide import candidates, fitting, models, weights
 from brdfguide.errors import InputError
 from brdfguide.fitting import Options
 from brdfguide.misfit import METRICS, Layout, Misfit, metric
@@ -164,32 +164,13 @@ def test_outliers_hardly_move_a_robust_fit():
     assert robust.values["lambertian.albedo"] == pytest.approx([0.3], rel=0.02)
 
 
-def test_a_dense_scan_outvotes_the_others_unless_weighed():
-    model = models.get("lambertian+ward")
-    dense = synthetic.surface(PLASTIC, synthetic.scan((10,), step=0.5), TRUTH)
-    sparse = synthetic.surface(PLASTIC, synthetic.scan((60,), step=8), TRUTH)
-    together = replace(dense, geom=join(dense.geom, sparse.geom), brdf=np.concatenate((dense.brdf, sparse.brdf)))
-    errors = {}
-    for kind in ("none", "sampling"):
-        found = fitting.fit(model, together, Options(weights=kind))
-        errors[kind] = np.sqrt(np.mean(found.residuals[-len(sparse.brdf) :] ** 2))
-    assert errors["sampling"] < 0.9 * errors["none"]
-
-
-def join(one, other):
-    from brdfguide.geometry import DIRECTIONAL
-
-    return replace(one, **{name: np.concatenate((getattr(one, name), getattr(other, name))) for name in DIRECTIONAL})
-
-
 def test_standard_errors_decide_the_weights():
     data = with_stderr(plastic(noise=0.02, seed=1), 0.02)
-    weights = fitting.sample_weights(data)
-    np.testing.assert_allclose(weights, 1.0, rtol=1e-12)
+    np.testing.assert_allclose(weights.of_samples(data), 1.0, rtol=1e-12)
     data.stderr[::2] *= 2
-    weights = fitting.sample_weights(data)
-    np.testing.assert_allclose(weights[1::2] / weights[::2], 4.0, rtol=1e-12)
-    assert np.mean(weights) == pytest.approx(1)
+    found = weights.of_samples(data)
+    np.testing.assert_allclose(found[1::2] / found[::2], 4.0, rtol=1e-12)
+    assert np.mean(found) == pytest.approx(1)
 
 
 def test_weights_by_standard_errors_need_some():

@@ -37,16 +37,6 @@ def test_mean_over_a_subset_is_nearer_to_the_whole_than_a_blind_draw_would_be(se
     assert abs(np.log(picked.brdf).mean() - values.mean()) < 0.8 * blind
 
 
-def test_weights_become_density():
-    measurement = scatter(20000)
-    heavy = measurement.geom.theta_i_deg > 60
-    weighted = Measurement(measurement.geom, measurement.brdf, weights=np.where(heavy, 9.0, 1.0))
-    picked = sampling.subset(weighted, 2000)
-    assert picked.weights is None
-    share = float(np.mean(picked.geom.theta_i_deg > 60))
-    assert share == pytest.approx(float(np.sum(weighted.weights[heavy]) / weighted.weights.sum()), abs=0.02)
-
-
 @pytest.mark.parametrize("model", ["lambertian+ggx", "lambertian+ward"])
 def test_a_finer_subset_of_a_whole_table_changes_no_answer_by_more_than_its_uncertainty(data, model):
     table = formats.read(data / "merl_format" / "alum-bronze.binary.xz", theta_max=80)

@@ -10,7 +10,7 @@ FIT = "Fit"
 ModelsOption = Annotated[list[str] | None, Option("--models", "-m", help="Models to try, e.g. lambertian+ggx; repeat or separate by commas.", rich_help_panel=FIT)]
 KindOption = Annotated[str | None, Option("--kind", help="metal or dielectric, where you know it.", rich_help_panel=FIT)]
 MetricOption = Annotated[str, Option("--metric", help="ln, cube-root, relative or cosine.", rich_help_panel=FIT)]
-WeightsOption = Annotated[str, Option("--weights", help="auto, none, stderr or sampling.", rich_help_panel=FIT)]
+WeightsOption = Annotated[str, Option("--weights", help="By standard errors, and every incidence alike: auto, stderr, sampling or none.", rich_help_panel=FIT)]
 RobustOption = Annotated[bool, Option("--robust", help="Let outliers count little.", rich_help_panel=FIT)]
 PerChannelOption = Annotated[bool, Option("--per-channel-shape", help="Free the shape for each channel.", rich_help_panel=FIT)]
 FixOption = Annotated[list[str] | None, Option("--fix", help="Hold a parameter, e.g. ggx.n=1.5; repeatable.", rich_help_panel=FIT)]

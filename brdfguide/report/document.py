@@ -15,7 +15,7 @@ def fit_document(ranking: Ranking, measurement: Measurement, judged: Verdict | N
     """`brdfguide fit --json` (CLI contract)."""
     return plain({
         "schema": "brdfguide/fit/1",
-        "data": data_block(measurement),
+        "data": data_block(measurement.noting(*ranking.weighing)),
         "kind": {"verdict": judged.kind, "evidence": list(judged.evidence), "numbers": dict(judged.numbers)} if judged else None,
         "metric": ranking.metric,
         "noise_rms_ln": _round(ranking.noise),
