@@ -223,7 +223,8 @@ def recommend(rows: Sequence[Row]) -> tuple[Row, str]:
 def _overall(rows: list[Row], winners: dict[str, str], noise: float) -> tuple[Finding, ...]:
     found = []
     if len(set(winners.values())) > 1:
-        by_winner = "; ".join(f"{name}: {model} ({METRICS[name].emphasis.split(',')[0].split(':')[0]})" for name, model in winners.items())
+        scales = {model: [name for name, other in winners.items() if other == model] for model in winners.values()}
+        by_winner = "; ".join(f"{', '.join(names)}: {model}" for model, names in scales.items())
         found.append(Finding("metric-decides", f"the winner depends on the scale: {by_winner}", "warning", "choose the scale that matters to you", "--metric"))
     if rows and noise > 0 and rows[0].rms_ln > 2 * noise:
         text = f"even the best error, {rows[0].rms_ln:.2g}, is {rows[0].rms_ln / noise:.0f} times the noise of a single value, {noise:.2g}"

@@ -50,6 +50,28 @@ def test_printed_parameters_reproduce_the_printed_error(fitted):
         assert rms == pytest.approx(row["rms_ln"], rel=1e-6)
 
 
+def test_every_scale_says_what_it_counts_and_how_it_ranks(fitted):
+    document = json.loads(fitted.read_text())
+    assert list(document["scales"]) == ["ln", "cube-root", "relative", "cosine"]
+    text = " ".join(brdfguide("fit", DATA, *QUICK).stdout.split())
+    for name, scale in document["scales"].items():
+        errors = [each["error"] for each in scale["order"]]
+        assert errors == sorted(errors) and scale["order"][0]["candidate"] == document["winners"][name]
+        assert {each["candidate"]: each["error"] for each in scale["order"]} == {row["candidate"]: row["errors"][name] for row in document["ranking"]}
+        best = ", ".join(f"{each['candidate']} {each['error']:.3g}" for each in scale["order"][:3])
+        assert f"{name}, {scale['counts']}: {best}" in text
+
+
+def test_the_weighing_is_stated(fitted, tmp_path):
+    assert "weighed-by-stderr" in [finding["code"] for finding in json.loads(fitted.read_text())["data"]["findings"]]
+    dense = tmp_path / "dense.csv"
+    lines = [line.rpartition(",")[0] for line in DATA.read_text().splitlines() if line[:1].isdigit() or line.startswith("theta_i")]
+    dense.write_text("\n".join(line for place, line in enumerate(lines) if not line.startswith("75") or place % 4 == 0))
+    findings = lambda *words: [finding["code"] for finding in json.loads(brdfguide("fit", dense, "-m", "lambertian+ward", "--json", *words).stdout)["data"]["findings"]]  # noqa: E731
+    assert "weighed-by-scan" in findings() and "weighed-by-stderr" not in findings()
+    assert "weighed-by-scan" not in findings("--weights", "none")
+
+
 def test_two_runs_without_timing_are_the_same_bytes():
     one, other = (brdfguide("fit", DATA, *QUICK, "--json", "--no-timing").stdout for _ in range(2))
     assert one == other and "time" not in one.split('"findings"')[0]

@@ -73,6 +73,7 @@ FLOORS = tuple(
         stand_ins
         starting
         starts
+        weights
         uncertainty
         validation
         waves

@@ -4,6 +4,7 @@ import numpy as np
 
 from ..fitting import Fit
 from ..measurement import Measurement
+from ..misfit import METRICS
 from ..next_measurement import Next
 from ..ranking import Ranking, Row
 from .data import data_block, finding
@@ -23,9 +24,17 @@ def fit_document(ranking: Ranking, measurement: Measurement, judged: Verdict | N
         "recommended": ranking.recommended.fit.name,
         "because": ranking.because,
         "winners": ranking.winners,
+        "scales": {name: {"counts": metric.emphasis, "order": _order(ranking, name)} for name, metric in METRICS.items()},
         "warnings": [finding(each) for each in ranking.warnings],
         "left_out": [],
     })  # fmt: skip
+
+
+def _order(ranking: Ranking, scale: str) -> list[dict]:
+    """Candidates and their errors on a scale: its winner, then the others in order of error; alike to five digits, the simpler first."""
+    error = lambda row: float(f"{row.errors[scale]:.5g}") if np.isfinite(row.errors[scale]) else np.inf  # noqa: E731
+    rows = sorted(ranking.rows, key=lambda row: (row.fit.name != ranking.winners[scale], error(row), row.fit.free))
+    return [{"candidate": row.fit.name, "error": row.errors[scale]} for row in rows]
 
 
 def next_block(proposed: Next) -> dict:

@@ -104,7 +104,7 @@ def _ranking(document) -> str:
         cells += [escape(", ".join(dict.fromkeys(flag["code"].partition(":")[0] for flag in row.get("flags", ()))))]
         lines.append((cells, _name(row) == document.get("recommended")))
     note = '<p class="soft">◆ no other model is better in both error and time. = cannot be told from the best by these data.</p>' if timed else ""
-    return _table(header, lines, numbers={0, 2, *range(4, len(header) - 1)}) + note + _by_angle(rows, document)
+    return _table(header, lines, numbers={0, 2, *range(4, len(header) - 1)}) + note + _by_angle(rows, document) + _by_scale(rows, document)
 
 
 def _by_angle(rows, document) -> str:
@@ -115,6 +115,17 @@ def _by_angle(rows, document) -> str:
     lines = [([escape(_name(row)), *(_number((row.get("rms_ln_by_theta_i") or {}).get(angle)) for angle in angles)],
               _name(row) == document.get("recommended")) for row in rows]  # fmt: skip
     return "<h3>rms ln at each angle of incidence</h3>" + _table(["model", *(f"{float(a):g}°" for a in angles)], lines, numbers=set(range(1, 99)))
+
+
+def _by_scale(rows, document) -> str:
+    """The error and the place on every scale, and what each scale counts."""
+    scales = document.get("scales") or {}
+    if not scales:
+        return ""
+    cells = {name: {each["candidate"]: (_number(each["error"]), str(place)) for place, each in enumerate(scale["order"], start=1)} for name, scale in scales.items()}
+    lines = [([escape(_name(row)), *(cell for name in scales for cell in cells[name][_name(row)])], _name(row) == document.get("recommended")) for row in rows]
+    counts = "; ".join(f"<b>{escape(name)}</b> {escape(scale['counts'])}" for name, scale in scales.items())
+    return "<h3>error on each scale</h3>" + _table(["model", *(word for name in scales for word in (name, "place"))], lines, numbers=set(range(1, 9))) + f'<p class="soft">{counts}.</p>'
 
 
 def _parameters(document) -> str:

@@ -2,7 +2,7 @@
 
 import sys
 from shutil import get_terminal_size
-from textwrap import fill
+from textwrap import fill, indent
 
 from .table import columns
 
@@ -11,7 +11,7 @@ def ranking_text(document: dict, *, notes: bool = True) -> str:
     """The whole answer in plain text: data, table, recommendation, doubts."""
     parts = [heading(document["data"]) + kind_line(document.get("kind")), table(document["ranking"]), recommendation(document)]
     if notes:
-        parts += [paragraph for paragraph in (doubts(document), data_notes(document["data"])) if paragraph]
+        parts += [paragraph for paragraph in (scales(document), doubts(document), data_notes(document["data"])) if paragraph]
     return "\n\n".join(parts)
 
 
@@ -100,6 +100,15 @@ def growth_text(growth: dict) -> str:
     low, high = growth["theta_i_deg"]
     data = f", the data by {growth['r_mirror_data']:.3g}" if _finite(growth["r_mirror_data"]) else ""
     return f"from {low:g} to {high:g} degrees it rises by {growth['r_mirror']:.3g} in the mirror direction{data}"
+
+
+def scales(document: dict) -> str:
+    """What each scale counts, and the order on it."""
+    paragraphs = ["best three on each scale:"]
+    for name, scale in document["scales"].items():
+        best = ", ".join(f"{each['candidate']} {number(each['error'], '.3g')}" for each in scale["order"][:3])
+        paragraphs += [wrapped(f"{name}, {scale['counts']}:"), indent(wrapped(best), "  ")]
+    return "\n".join(paragraphs)
 
 
 def doubts(document: dict) -> str:

@@ -22,7 +22,7 @@ def show(document: dict, sketch: str = "", notes: bool = True) -> None:
         print("\n" + sketch)
     paragraphs = [ranking.recommendation(document)]
     if notes:
-        paragraphs += [text for text in (ranking.doubts(document), ranking.data_notes(document["data"])) if text]
+        paragraphs += [text for text in (ranking.scales(document), ranking.doubts(document), ranking.data_notes(document["data"])) if text]
     for place, paragraph in enumerate(paragraphs):
         console.print(Text("\n" + paragraph, style="bold green" if place == 0 else "yellow" if paragraph.startswith("doubts") else "dim"))
 
