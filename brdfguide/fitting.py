@@ -159,10 +159,10 @@ def settle(searched: Search, data: Data, on: Part | None, options: Options) -> F
     if wrong and not hopeless:
         wide = uncertainty.errors_of_a_wrong_model(layout, values, best.normal, best.seen, [each[on.rows] for each in data.segments])
         stderr = {key: np.maximum(error, wide[key]) for key, error in stderr.items()}
-    warnings = list(uncertainty.doubts(layout, values, stderr, best.normal))
+    together = variance * uncertainty.serial_widening(correlation) * uncertainty.common_channels(part)
+    warnings = list(uncertainty.doubts(layout, values, stderr, best.normal, together))
     warnings += [warning for warning in (wrong, _disagreement(layout, found)) if warning]
-    wide = variance * uncertainty.serial_widening(correlation) * uncertainty.common_channels(part)
-    warnings = waves.in_place_of(warnings, waves.doubts(layout, on.measurement, *start, wide, stderr))
+    warnings = waves.in_place_of(warnings, waves.doubts(layout, on.measurement, *start, together, stderr))
     if hopeless:
         warnings.append(Finding("coarse", f"its error is more than {HOPELESS:g} times the best: searched for, not refined", "note"))
     if not best.converged:

@@ -4,6 +4,7 @@ from math import erfc, sqrt
 
 import numpy as np
 
+from . import optics
 from .levenberg import Normal
 from .measurement import Finding, Measurement
 from .misfit import Layout, slope_of_coordinate
@@ -133,8 +134,11 @@ def _in_units(layout: Layout, values: dict, shared, own) -> dict:
     return {key: float(error) if np.ndim(error) == 0 else error for key, error in errors.items()}
 
 
-def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[Finding, ...]:
-    """Parameters at a bound, parameters that the data do not determine, and pairs of which only a combination is."""
+def doubts(layout: Layout, values: dict, errors: dict, normal: Normal, variance: float) -> tuple[Finding, ...]:
+    """Parameters at a bound, parameters that the data do not determine, and pairs of which only a combination is.
+
+    `variance` of one residual, widened for neighbours and channels that err together.
+    """
     found = []
     for key, parameter in layout.parameters.items():
         value, error = np.atleast_1d(values[key]), np.atleast_1d(errors[key])
@@ -149,7 +153,7 @@ def doubts(layout: Layout, values: dict, errors: dict, normal: Normal) -> tuple[
         if np.median(error / np.maximum(away, 1e-300)) > LOOSE and np.any(value > parameter.low):
             found.append(Finding(f"undetermined:{key}", f"the data do not determine {key}", "warning", "do not use its value by itself"))
     found += _lobes_not_shown(layout, found)
-    found += _ridge(layout, normal)
+    found += _ridge(layout, values, normal, variance)
     return tuple(found)
 
 
@@ -161,8 +165,8 @@ def _lobes_not_shown(layout: Layout, found) -> list[Finding]:
     return [Finding(f"undetermined:{key}", f"the data do not determine {key}, since they hardly show its lobe", "warning", "do not use its value by itself") for key in rest]
 
 
-def _ridge(layout: Layout, normal: Normal) -> list[Finding]:
-    """Names the combination along which the misfit hardly changes."""
+def _ridge(layout: Layout, values: dict, normal: Normal, variance: float) -> list[Finding]:
+    """Names the combination along which the misfit hardly changes, and gives the one across it that the data determine."""
     keys = layout.shared + layout.own
     p = len(layout.shared)
     full = np.zeros((len(keys), len(keys)))
@@ -170,14 +174,48 @@ def _ridge(layout: Layout, normal: Normal) -> list[Finding]:
     full[:p, p:] = normal.between.sum(0)
     full[p:, :p] = full[:p, p:].T
     full[p:, p:] = normal.own.sum(0)  # the channels together: one amplitude of each kind
-    scale = np.sqrt(np.maximum(np.diag(full), 1e-300))
-    values, vectors = np.linalg.eigh(full / np.outer(scale, scale))
-    condition = sqrt(values[-1] / values[0]) if values[0] > 0 else float("inf")
-    if condition < ILL or len(keys) < 2:
+    free = [place for place, key in enumerate(keys) if full[place, place] > 0 and not _at_bound(layout.parameters[key], values[key])]
+    if len(free) < 2:
         return []
-    weak = [keys[place] for place in np.argsort(-np.abs(vectors[:, 0])) if abs(vectors[place, 0]) > 0.3]
-    text = f"only a combination of {' and '.join(weak)} is determined (condition number {condition:.0f})"
+    keys, full = [keys[place] for place in free], full[np.ix_(free, free)]
+    scale = np.sqrt(np.diag(full))
+    strength, vectors = np.linalg.eigh(full / np.outer(scale, scale))
+    condition = sqrt(strength[-1] / strength[0]) if strength[0] > 0 else float("inf")
+    weak = [place for place in np.argsort(-np.abs(vectors[:, 0])) if abs(vectors[place, 0]) > 0.3]
+    if condition < ILL or len(weak) < 2:
+        return []
+    text = f"only a combination of {' and '.join(keys[place] for place in weak)} is determined (condition number {condition:.0f})"
+    if len(weak) == 2:
+        inverse = np.einsum("ij,j,kj->ik", vectors, 1 / np.maximum(strength, 1e-15), vectors) / np.outer(scale, scale)
+        pair = sorted(weak)
+        text += f": {_across(layout, values, [keys[place] for place in pair], vectors[pair, 0] / scale[pair], variance * inverse[np.ix_(pair, pair)])}"
     return [Finding("ridge", text, "warning", "move them together or fix one", "--fix", (("condition", condition),))]
+
+
+def _at_bound(parameter, value) -> bool:
+    return bool(np.any([np.abs(np.asarray(value) - bound) <= 1e-9 * abs(bound) for bound in (parameter.low, parameter.high)]))
+
+
+def _across(layout: Layout, values: dict, keys: list[str], along, covariance) -> str:
+    """The product of powers of two parameters that stays put `along` the ridge, with its standard error."""
+    names, sizes, rates = zip(*(_logarithmic(layout.parameters[key], key, values) for key in keys))
+    power = -rates[0] * along[0] / (rates[1] * along[1])
+    value, slope = sizes[0] * sizes[1] ** power, np.array([rates[0], power * rates[1]])
+    error = sqrt(max(slope @ covariance @ slope, 0.0))
+    shown = f"{np.min(value):.3g}..{np.max(value):.3g}" if np.size(value) > 1 else f"{float(np.ravel(value)[0]):.4g}"
+    return f"{names[0]} * {names[1]}^{power:.3g} = {shown}, to {100 * error:.2g} %"
+
+
+def _logarithmic(parameter, key: str, values: dict):
+    """Name and size of what enters a product, and d ln(size) by the coordinate: F0 for an index, else what is above the origin."""
+    value = np.asarray(values[key], float)
+    slope = slope_of_coordinate(parameter, value)
+    if parameter.name == "n":
+        k, step = np.asarray(values[key[:-1] + "k"], float), 1e-6 * (value - 1)
+        rate = (np.log(optics.f0(value + step, k)) - np.log(optics.f0(value - step, k))) / (2 * step)
+        return f"F0 of {key[:-2]}", optics.f0(value, k), float(np.mean(rate * slope))
+    size = value - parameter.origin
+    return key, size, float(np.mean(slope / size))
 
 
 def discrepancy(residuals: np.ndarray, correlation: float, score: float) -> Finding | None:

@@ -1,5 +1,6 @@
 """One model, one measurement: what is searched for, what is said, and whether the truth comes back."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -238,8 +239,27 @@ def test_scale_and_index_near_normal_incidence_are_called_a_combination():
     found = fitting.fit(freed, data[np.abs(data.geom.signed_theta_r_deg[:, 0]) < 41])
     ridge = next(warning.text for warning in found.warnings if warning.code == "ridge")
     assert "ggx.n" in ridge and "ggx.scale" in ridge and "ggx.alpha" not in ridge
+    power, value, percent = map(float, re.search(r"F0 of ggx \* ggx.scale\^(\S+) = (\S+), to (\S+) %", ridge).groups())
+    assert power == pytest.approx(1, abs=0.1)  # F0 scatters by 5 % over seeds, n between 1.004 and 35
+    assert abs(value / 0.04 - 1) < 3 * percent / 100 and 3 < percent < 12
     wide = fitting.fit(freed, synthetic.surface(PLASTIC, synthetic.scan(), TRUTH, noise=0.02, seed=6))
     assert not wide.has("ridge")
+
+
+def test_a_ridge_gives_the_product_that_is_determined():
+    """In the middle of Ward's lobe only its height shows, which is rho_s/alpha^2 times what the cosines do."""
+    ward, truth = models.get("ward"), {"ward.alpha": 0.8, "ward.rho_s": 0.3}
+    data = synthetic.surface(ward, synthetic.scan((10, 30, 50), step=0.2), truth, noise=0.02, seed=2)
+    found = fitting.fit(ward, data[data.geom.mirror_distance2[:, 0] < np.radians(1.5) ** 2])
+    ridge = next(warning.text for warning in found.warnings if warning.code == "ridge")
+    power, value, percent = map(float, re.search(r"ward.alpha \* ward.rho_s\^(\S+) = (\S+), to (\S+) %", ridge).groups())
+    assert power == pytest.approx(-0.5, abs=0.01)
+    assert abs(value / (0.8 * 0.3**power) - 1) < 4 * percent / 100 < 0.05
+
+
+def test_a_parameter_at_its_bound_is_no_ridge():
+    found = fitting.fit(models.get("oren-nayar+ggx"), synthetic.surface(PLASTIC, synthetic.scan(), TRUTH, noise=0.02, seed=4))
+    assert found.has("at-bound:oren-nayar.spread") and not found.has("ridge")
 
 
 def test_residuals_csv_has_a_row_for_each_value_and_its_own_ratio():

@@ -51,7 +51,7 @@ def doubts(values, noise):
     normal, *_ = levenberg._normal(*Misfit(layout, data, metric("ln"), np.ones_like(data.brdf))(*start, True))
     independent = np.random.default_rng(0).normal(size=data.brdf.shape)
     stderr = uncertainty.standard_errors(layout, values, *normal.variances(noise**2), independent, 0.0)
-    found = waves.in_place_of(uncertainty.doubts(layout, values, stderr, normal), waves.doubts(layout, data, *start, noise**2, stderr))
+    found = waves.in_place_of(uncertainty.doubts(layout, values, stderr, normal, noise**2), waves.doubts(layout, data, *start, noise**2, stderr))
     return {finding.code: dict(finding.numbers) for finding in found}
 
 
