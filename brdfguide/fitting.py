@@ -197,15 +197,16 @@ def fit_all(models: Iterable[Sum], measurement: Measurement, options: Options = 
 
 def ln_residuals(model: Sum, measurement: Measurement, values: Mapping) -> np.ndarray:
     """ln(model/data), (samples, channels), NaN where nothing was measured."""
-    ratio = np.maximum(seen(model, measurement, values), SMALLEST)
-    ratio /= _known(measurement)
-    return np.log(ratio, out=ratio)
+    ln_model = np.maximum(seen(model, measurement, values), SMALLEST)
+    np.log(ln_model, out=ln_model)
+    ln_model -= _ln_known(measurement)
+    return ln_model
 
 
 @once
-def _known(measurement: Measurement) -> np.ndarray:
-    """The values, NaN where there is none to fit."""
-    return np.where(measurement.usable, measurement.brdf, np.nan)
+def _ln_known(measurement: Measurement) -> np.ndarray:
+    """ln of the values, NaN where there is none to fit."""
+    return np.log(np.where(measurement.usable, measurement.brdf, np.nan))
 
 
 def _with_options(model: Sum, options: Options) -> Sum:

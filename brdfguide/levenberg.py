@@ -92,6 +92,7 @@ class Minimum:
     converged: bool
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def minimise(
     residuals: Residuals,
     shared,
@@ -137,7 +138,7 @@ def minimise(
         if 0 < expected < tolerance * 1e-1 * cost and damping < FIRST_DAMPING:
             converged = True  # what is left to gain is too little to go and look
             break
-        if expected <= 0:  # a bound cut the step so that it climbs: a shorter one will not
+        if not expected > 0:  # a bound cut the step so that it climbs, or it is no number: a shorter one will not
             damping, grow = damping * grow, grow * 2
             continue
         hopeful = grow == 2.0  # the last step was taken; so will be this one, most likely, and then needs the slopes
@@ -159,7 +160,7 @@ def minimise(
             damping, grow = damping * grow, grow * 2
         history.append(cost)
         converged = converged or (len(history) > STALL and history[-STALL - 1] - cost < 2 * STALL * tolerance * cost)
-    return Minimum(shared, own, cost, seen, normal, evaluations, converged or damping >= MOST_DAMPING)
+    return Minimum(shared, own, cost, seen, normal, evaluations, np.isfinite(cost) and (converged or damping >= MOST_DAMPING))
 
 
 def _within(at, low, high):
@@ -216,7 +217,7 @@ def _inverse(matrix):
     """Inverse of symmetric positive matrices, scaled to a unit diagonal first; singular ones through the pseudo-inverse."""
     if matrix.shape[-1] == 0:
         return matrix
-    scale = np.sqrt(matrix.diagonal(0, -2, -1))
+    scale = np.sqrt(np.maximum(matrix.diagonal(0, -2, -1), 0.0))
     if not scale.all():
         scale = np.where(scale > 0, scale, 1.0)
     outer = scale[..., :, None] * scale[..., None, :]
@@ -233,7 +234,7 @@ def _variances(matrix, diagonal):
     """Inverse for a covariance: eigenvalues that rounding could have made count as 1e-15 of the scaled matrix."""
     if matrix.shape[-1] == 0:
         return matrix
-    scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
+    scale = 1 / np.sqrt(np.where(diagonal > 1e-200, diagonal, 1.0))
     outer = scale[..., :, None] * scale[..., None, :]
     values, vectors = np.linalg.eigh(matrix * outer)
     return np.einsum("...ij,...j,...kj->...ik", vectors, 1 / np.maximum(values, 1e-15), vectors) * outer

@@ -8,6 +8,7 @@ import numpy as np
 from . import aperture
 from .geometry import Geometry
 
+LARGEST = 1e100  # 1/sr, and its inverse the least: beyond is no measurement
 MOST_HELD = 120  # distinct incidence angles; with more, none was held
 
 
@@ -47,9 +48,9 @@ class Measurement:
 
     @cached_property
     def usable(self) -> np.ndarray:
-        """(samples, channels): finite, positive and above the horizon; the rest is censored, never clipped."""
+        """(samples, channels): positive, of a size that squares and quotients survive, and above the horizon; the rest is censored, never clipped."""
         with np.errstate(invalid="ignore"):
-            return np.isfinite(self.brdf) & (self.brdf > 0) & self.geom.lit
+            return (self.brdf > 1 / LARGEST) & (self.brdf < LARGEST) & self.geom.lit
 
     @cached_property
     def views(self) -> list[tuple[float, Geometry]]:

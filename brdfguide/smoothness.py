@@ -178,7 +178,7 @@ def _scattered(measurement: Measurement, level):
     first = np.repeat(np.cumsum(sizes) - sizes, sizes)[::stride]
     near = np.concatenate([_beside(places, *each) for each in zip(*(np.array_split(part, -(-len(asked) * sizes.max() // 2**19)) for part in (asked, first, size)))])
     x, y = np.moveaxis(places[near] - places[asked][:, None], -1, 0)
-    x, y = (each / np.hypot(x, y).max(axis=1, keepdims=True) for each in (x, y))
+    x, y = (each / np.maximum(np.hypot(x, y).max(axis=1, keepdims=True), 1e-12) for each in (x, y))
     design = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
     across = np.swapaxes(design, 1, 2)
     weights = np.linalg.solve(across @ design + 1e-9 * np.eye(6), across)[:, 0]  # a touch of ridge: the twelve may stand in a line

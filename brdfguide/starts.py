@@ -18,6 +18,7 @@ FAINTEST = 1e-12  # of the largest value: what is darker decides nothing about w
 SPREAD = 6  # values along a parameter that names no starts of its own
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # values far from any reflectance
 def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> list[dict]:
     """The best `count` starts that lie apart on the grid, best first, and that of the brightest parts; values as in `Fit.values`.
 

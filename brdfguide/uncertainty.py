@@ -12,6 +12,7 @@ from .misfit import Layout, slope_of_coordinate
 SEGMENTS = 8  # of each incidence angle: neighbours in one segment err together
 LOOSE = 0.5  # standard error of a logarithm beyond which a parameter counts as not determined: a factor 1.6
 ILL = 1e3  # condition number of the scaled problem beyond which single intervals mislead (ours)
+MOST_POWER = 10.0  # of one parameter beside another in a product that is worth telling
 DISCREPANT = 3.5  # standard deviations of the lag-one correlation, over four orderings: under 1 in 1000 by chance
 
 
@@ -185,10 +186,10 @@ def _ridge(layout: Layout, values: dict, normal: Normal, variance: float) -> lis
     if condition < ILL or len(weak) < 2:
         return []
     text = f"only a combination of {' and '.join(keys[place] for place in weak)} is determined (condition number {condition:.0f})"
-    if len(weak) == 2:
+    if len(weak) == 2 and strength[0] > 0:
         inverse = np.einsum("ij,j,kj->ik", vectors, 1 / np.maximum(strength, 1e-15), vectors) / np.outer(scale, scale)
         pair = sorted(weak)
-        text += f": {_across(layout, values, [keys[place] for place in pair], vectors[pair, 0] / scale[pair], variance * inverse[np.ix_(pair, pair)])}"
+        text += _across(layout, values, [keys[place] for place in pair], vectors[pair, 0] / scale[pair], variance * inverse[np.ix_(pair, pair)])
     return [Finding("ridge", text, "warning", "move them together or fix one", "--fix", (("condition", condition),))]
 
 
@@ -197,13 +198,15 @@ def _at_bound(parameter, value) -> bool:
 
 
 def _across(layout: Layout, values: dict, keys: list[str], along, covariance) -> str:
-    """The product of powers of two parameters that stays put `along` the ridge, with its standard error."""
+    """The product of powers of two parameters that stays put `along` the ridge, with its standard error; nothing where one of them hardly enters."""
     names, sizes, rates = zip(*(_logarithmic(layout.parameters[key], key, values) for key in keys))
     power = -rates[0] * along[0] / (rates[1] * along[1])
+    if not 1 / MOST_POWER < abs(power) < MOST_POWER:
+        return ""
     value, slope = sizes[0] * sizes[1] ** power, np.array([rates[0], power * rates[1]])
     error = sqrt(max(slope @ covariance @ slope, 0.0))
     shown = f"{np.min(value):.3g}..{np.max(value):.3g}" if np.size(value) > 1 else f"{float(np.ravel(value)[0]):.4g}"
-    return f"{names[0]} * {names[1]}^{power:.3g} = {shown}, to {100 * error:.2g} %"
+    return f": {names[0]} * {names[1]}^{power:.3g} = {shown}, to {100 * error:.2g} %"
 
 
 def _logarithmic(parameter, key: str, values: dict):

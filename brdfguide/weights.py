@@ -27,7 +27,7 @@ def of_samples(measurement: Measurement, kind: str = "auto") -> np.ndarray:
     if kind in ("auto", "stderr") and measurement.stderr is not None:
         relative = np.where(measurement.usable, measurement.stderr / np.where(measurement.usable, measurement.brdf, 1.0), np.nan)
         floor = 0.1 * np.nanmedian(relative)  # one lucky sample must not decide
-        weights = np.where(np.isfinite(relative), 1 / np.maximum(relative, max(floor, 1e-12)) ** 2, 0.0)
+        weights = np.where(np.isfinite(relative), 1 / np.clip(relative, max(floor, 1e-12), 1e6) ** 2, 0.0)
     counted = votes(measurement, kind)
     weights = weights if counted is None else weights * counted
     return weights / np.mean(weights[measurement.usable])
