@@ -113,7 +113,7 @@ def _dim(measurement: Measurement, here, there) -> Dim | None:
     ratio, across = ratio[told], np.broadcast_to(across, told.shape)[told]
     below = float(np.median(size))
     of = lambda half: (*_slope(lever[half], ratio[half]), float(np.exp(np.median(np.abs(ratio[half])))))  # noqa: E731
-    (bright_power, _, bright_ratio), (power, stderr, dim_ratio) = of(size > np.quantile(size, 0.75)), of(size <= below)
+    (bright_power, _, bright_ratio), (power, stderr, dim_ratio) = of(size >= np.quantile(size, 0.75)), of(size <= below)
     if power is None or bright_power is None or abs(bright_power) > UNTOUCHED or bright_ratio > 1.25:
         return None
     if abs(power) < max(2 * UNTOUCHED, 4 * stderr) or np.log(dim_ratio) < 1.5 * np.log(bright_ratio):

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from brdfguide import examine, formats, models, reflectance, smoothness
+from brdfguide import examine, formats, models, reciprocity, reflectance, smoothness
 from brdfguide.cli import build
 from brdfguide.errors import InputError, NoAnswer
 from brdfguide.geometry import Geometry, rows
-from brdfguide.measurement import Measurement
+from brdfguide.measurement import Measurement, row_median
 from brdfguide.candidates import as_metal
 
 from . import synthetic
@@ -220,3 +220,39 @@ def test_of_a_whole_table_nothing_is_left_out(data):
     found = examine.examine(table)
     assert not {finding.code for finding in found} & {"spikes", "dark-edge"}
     assert next(dict(finding.numbers)["relative"] for finding in found if finding.code == "noise") < 0.01  # a network's output
+
+
+# --- what the tests of a file are made of -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("channels", [1, 2, 3, 4, 7])
+def test_median_over_channels_is_numpys_with_seed_0(channels):
+    values = np.random.default_rng(0).normal(size=(400, channels))
+    values[np.random.default_rng(1).random(values.shape) < 0.4] = np.nan
+    some = np.any(np.isfinite(values), axis=1)
+    np.testing.assert_array_equal(row_median(values)[some], np.nanmedian(values[some], axis=1))
+    assert np.all(np.isnan(row_median(values)[~some]))
+
+
+@pytest.mark.parametrize("spread", [90.0, 8.0, 0.0], ids=["hemisphere", "few incidences", "one incidence"])
+def test_the_nearest_direction_is_the_nearest_of_all_with_seed_2(spread):
+    random = np.random.default_rng(2)
+    scattered = lambda count: rows(Geometry.from_degrees(np.minimum(40 + spread * (random.random(count) - 0.5), 89), 0.0, random.uniform(0, 89, count), random.uniform(0, 360, count)))  # noqa: E731
+    among, points = (reciprocity._places(scattered(count)) for count in (900, 150))
+    index, distance = reciprocity._nearest(points, among)
+    apart = np.sqrt(np.sum((points[:, None] - among[None]) ** 2, axis=2))
+    np.testing.assert_allclose(distance, apart.min(axis=1), atol=1e-3)  # found in single precision
+    np.testing.assert_allclose(distance, apart[np.arange(150), index], rtol=1e-12)
+    own = np.arange(150)
+    index, distance = reciprocity._nearest(among[own], among, own)
+    apart = np.sqrt(np.sum((among[own][:, None] - among[None]) ** 2, axis=2))
+    apart[own, own] = np.inf
+    np.testing.assert_allclose(distance, apart.min(axis=1), atol=1e-3)
+    assert np.all(index != own)
+
+
+def test_spikes_and_scans_are_found_once_for_each_measurement():
+    measurement = plane("white paint", 3, 0.01)
+    assert smoothness.spikes(measurement) is smoothness.spikes(measurement)
+    assert smoothness.spikes(measurement) is smoothness.spikes(measurement.noting())
+    assert smoothness.spikes(measurement) is not smoothness.spikes(measurement[np.arange(len(measurement.brdf))])
