@@ -54,6 +54,9 @@ def test_every_scale_says_what_it_counts_and_how_it_ranks(fitted):
     document = json.loads(fitted.read_text())
     assert list(document["scales"]) == ["ln", "cube-root", "relative", "cosine"]
     text = " ".join(brdfguide("fit", DATA, *QUICK).stdout.split())
+    growth = next(row["growth"] for row in document["ranking"] if row["candidate"] == document["recommended"])
+    assert f"rises by {growth['r_mirror']:.3g} in the mirror direction, the data by {growth['r_mirror_data']:.3g}" in text
+    assert f"its greatest value by {growth['r_max']:.3g}, the data by {growth['r_max_data']:.3g}" in text
     for name, scale in document["scales"].items():
         errors = [each["error"] for each in scale["order"]]
         assert errors == sorted(errors) and scale["order"][0]["candidate"] == document["winners"][name]

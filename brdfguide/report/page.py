@@ -112,9 +112,15 @@ def _by_angle(rows, document) -> str:
     angles = sorted({key for row in rows for key in row.get("rms_ln_by_theta_i") or {}}, key=float)
     if len(angles) < 2:
         return ""
-    lines = [([escape(_name(row)), *(_number((row.get("rms_ln_by_theta_i") or {}).get(angle)) for angle in angles)],
+    risen = next((row["growth"] for row in rows if row.get("growth")), None)
+    rise = lambda growth, of="": [_number(growth[f"r_{name}{of}"] if growth else None) for name in ("mirror", "max")] if risen else []  # noqa: E731
+    lines = [([escape(_name(row)), *(_number((row.get("rms_ln_by_theta_i") or {}).get(angle)) for angle in angles), *rise(row.get("growth"))],
               _name(row) == document.get("recommended")) for row in rows]  # fmt: skip
-    return "<h3>rms ln at each angle of incidence</h3>" + _table(["model", *(f"{float(a):g}°" for a in angles)], lines, numbers=set(range(1, 99)))
+    if risen:
+        lines.insert(0, (["<i>the data</i>", *[""] * len(angles), *rise(risen, "_data")], False))
+    header = ["model", *(f"{float(a):g}°" for a in angles), *(("R-mirror", "R-max") if risen else ())]
+    note = f'<p class="soft">R: how many times the value in the mirror direction, and the greatest, grow from {risen["theta_i_deg"][0]:g}° to {risen["theta_i_deg"][1]:g}°.</p>' if risen else ""
+    return "<h3>rms ln at each angle of incidence, and growth toward grazing</h3>" + _table(header, lines, numbers=set(range(1, 99))) + note
 
 
 def _by_scale(rows, document) -> str:

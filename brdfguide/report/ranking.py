@@ -98,8 +98,9 @@ def recommendation(document: dict) -> str:
 def growth_text(growth: dict) -> str:
     """How fast model and data rise toward grazing: what models differ in most (Westin et al. 2004, section 5.2)."""
     low, high = growth["theta_i_deg"]
-    data = f", the data by {growth['r_mirror_data']:.3g}" if _finite(growth["r_mirror_data"]) else ""
-    return f"from {low:g} to {high:g} degrees it rises by {growth['r_mirror']:.3g} in the mirror direction{data}"
+    data = lambda key: f", the data by {growth[key]:.3g}" if _finite(growth[key]) else ""  # noqa: E731
+    greatest = f"; its greatest value by {growth['r_max']:.3g}{data('r_max_data')}" if _finite(growth["r_max"]) else ""
+    return f"from {low:g} to {high:g} degrees it rises by {growth['r_mirror']:.3g} in the mirror direction{data('r_mirror_data')}{greatest}"
 
 
 def scales(document: dict) -> str:

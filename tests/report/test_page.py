@@ -91,6 +91,21 @@ def test_the_whole_result_stands_in_the_page(fitted):
     assert json.loads(found) == FIT
 
 
+def test_growth_and_every_scale_stand_in_tables():
+    growth = {"theta_i_deg": [10.0, 75.0], "r_mirror": 12.5, "r_max": 26.5, "r_mirror_data": 13.5, "r_max_data": 30.5}
+    rows = [{**row, "growth": growth if place == 0 else None} for place, row in enumerate(FIT["ranking"])]
+    orders = {"ln": ("energy & ratios", ["lambertian+ward", "ward"]), "cosine": ("the peak", ["ward", "lambertian+ward"])}
+    scales = {name: {"counts": counts, "order": [{"candidate": each, "error": 0.125 * (place + 1)} for place, each in enumerate(order)]} for name, (counts, order) in orders.items()}
+    made = page.html({**FIT, "ranking": rows, "scales": scales})
+    cells = lambda start: re.sub(r"<[^>]+>", " ", made[made.index(start) : made.index("</tr>", made.index(start))]).split()  # noqa: E731
+    assert cells("<i>the data</i>") == ["the", "data", "13.5", "30.5"]
+    by_angle, by_scale = made[made.index("growth toward grazing") :], made[made.index("error on each scale") :]
+    line = lambda table: re.sub(r"<[^>]+>", " ", table[table.index(">lambertian+ward<") : table.index("</tr>", table.index(">lambertian+ward<"))]).strip(" >").split()  # noqa: E731
+    assert line(by_angle)[1:] == ["0.01", "0.02", "12.5", "26.5"]
+    assert line(by_scale)[1:] == ["0.125", "1", "0.25", "2"]
+    assert "energy &amp; ratios" in made
+
+
 def test_the_page_can_be_repeated_from(fitted):
     words = text_of(fitted)
     assert "brdfguide fit a.csv" in words and re.search(r"SHA-256 [0-9a-f]{64}", words) and "numpy" in words
