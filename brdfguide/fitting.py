@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from . import levenberg, sampling, starts, uncertainty, waves, weights
+from . import levenberg, profile, sampling, starts, uncertainty, waves, weights
 from .errors import InputError, choices
 from .measurement import Finding, Measurement, once
 from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
@@ -163,6 +163,8 @@ def settle(searched: Search, data: Data, on: Part | None, options: Options) -> F
     warnings = list(uncertainty.doubts(layout, values, stderr, best.normal, together))
     warnings += [warning for warning in (wrong, _disagreement(layout, found)) if warning]
     warnings = waves.in_place_of(warnings, waves.doubts(layout, on.measurement, *start, together, stderr))
+    if not wrong and not hopeless:
+        warnings += profile.doubts(layout, Misfit(layout, on.measurement, scale, on.weights), best, values, stderr)
     if hopeless:
         warnings.append(Finding("coarse", f"its error is more than {HOPELESS:g} times the best: searched for, not refined", "note"))
     if not best.converged:

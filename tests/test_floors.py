@@ -61,6 +61,7 @@ FLOORS = tuple(
         picture
         pixels
         predict
+        profile
         pruning
         quadrature
         ranking
