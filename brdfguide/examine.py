@@ -115,7 +115,7 @@ def _span(angles) -> str:
 
 def _reach(m: Measurement):
     """Where models will differ because nobody looked."""
-    usable = np.any(m.usable, axis=1)
+    usable = m.seen
     for name, angles in (("theta_i", m.geom.theta_i_deg[usable]), ("theta_r", m.geom.theta_r_deg[usable])):
         largest = float(angles.max())
         if largest < 75:
@@ -200,7 +200,7 @@ def _spread_within(group, level) -> float | None:
 
 def _gaps(m: Measurement):
     """Zones where every value is missing."""
-    missing = ~np.any(m.usable, axis=1)
+    missing = ~m.seen
     count = int(np.count_nonzero(missing))
     if count:
         steepest = np.maximum(m.geom.theta_i_deg, m.geom.theta_r_deg)[missing]

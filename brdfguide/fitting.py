@@ -8,7 +8,7 @@ import numpy as np
 
 from . import levenberg, profile, sampling, starts, uncertainty, waves, weights
 from .errors import InputError, choices
-from .measurement import Finding, Measurement, once
+from .measurement import Finding, Measurement
 from .misfit import SMALLEST, Layout, Metric, Misfit, metric, seen
 from .models import Sum
 
@@ -91,13 +91,12 @@ class Data:
 
 def prepare(measurement: Measurement, options: Options = Options()) -> Data:
     """Chooses the directions to search on and to settle on. Raises InputError where there is nothing to fit."""
-    seen = np.any(measurement.usable, axis=1)
-    if not seen.any():
+    if not measurement.seen.any():
         raise InputError(f"{measurement.name or 'the data'}: no positive value above the horizon to fit")
-    size = np.count_nonzero(seen)
-    rows = sampling.representative_rows(measurement, size if size * measurement.brdf.shape[1] <= SETTLE_VALUES else SETTLE_SAMPLES, among=seen)
+    size = np.count_nonzero(measurement.seen)
+    rows = sampling.representative_rows(measurement, size if size * measurement.brdf.shape[1] <= SETTLE_VALUES else SETTLE_SAMPLES, among=measurement.seen)
     settle = Part(slice(None), measurement, weights.of_samples(measurement, options.weights))
-    if len(rows) < len(seen):
+    if len(rows) < len(measurement.brdf):
         settle = Part(slice(None), measurement[rows], settle.weights[rows])
     fewer, near = (settle.some(sampling.representative_rows(settle.measurement, count)) for count in (SETTLE_SAMPLES, NEAR_SAMPLES))
     thin, channels = starts.spread_rows(settle.measurement, SEARCH_SAMPLES), few_channels(measurement.brdf.shape[1])
@@ -201,14 +200,8 @@ def ln_residuals(model: Sum, measurement: Measurement, values: Mapping) -> np.nd
     """ln(model/data), (samples, channels), NaN where nothing was measured."""
     ln_model = np.maximum(seen(model, measurement, values), SMALLEST)
     np.log(ln_model, out=ln_model)
-    ln_model -= _ln_known(measurement)
+    ln_model -= measurement.ln
     return ln_model
-
-
-@once
-def _ln_known(measurement: Measurement) -> np.ndarray:
-    """ln of the values, NaN where there is none to fit."""
-    return np.log(np.where(measurement.usable, measurement.brdf, np.nan))
 
 
 def _with_options(model: Sum, options: Options) -> Sum:

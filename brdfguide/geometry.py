@@ -12,11 +12,24 @@ wavelengths of shape (channels,), and a law simply broadcasts.
 """
 
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, wraps
 
 import numpy as np
 
 WAVELENGTH_UM = 0.55  # where nothing else is said, as in the report
+
+
+def once(function):
+    """A function of one Geometry or Measurement, computed once for each: what a law forms from the directions alone, say."""
+    key = (function.__module__, function.__qualname__)
+
+    @wraps(function)
+    def found(of):
+        if key not in of.__dict__:
+            of.__dict__[key] = function(of)
+        return of.__dict__[key]
+
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,13 +166,6 @@ class Geometry:
     @cached_property
     def theta_r(self):
         return np.arctan2(self.sin_r, self.cos_r)
-
-    def remembered(self, factor):
-        """`factor(self)`, computed once: for what a law forms from the directions alone."""
-        key = (factor.__module__, factor.__qualname__)
-        if key not in self.__dict__:
-            self.__dict__[key] = factor(self)
-        return self.__dict__[key]
 
     # --- what people read ---------------------------------------------------------------------------
 

@@ -48,28 +48,31 @@ class Normal:
 
     def scatter(self, spread, j_shared, j_own) -> tuple[np.ndarray, np.ndarray]:
         """The same where each residual has a standard deviation of its own, `spread` (samples, channels): a sandwich."""
-        shared, inverse_own, lever = self._inverses
-        pull, own_pull = j_shared * spread.T[:, :, None], j_own * spread.T[:, :, None]
-        moved = (pull - own_pull @ lever) @ shared
+        moved, own_moved, lever = self._moved(spread, j_shared, j_own)
         by_channel = np.swapaxes(moved, 1, 2) @ moved
         of_others = lever @ (by_channel.sum(0) - by_channel) @ np.swapaxes(lever, 1, 2)
-        own_moved = own_pull @ inverse_own - moved @ np.swapaxes(lever, 1, 2)
-        return by_channel.sum(0).diagonal(), np.sum(own_moved**2, axis=1) + of_others.diagonal(0, 1, 2)
+        own = np.sum((own_moved - moved @ np.swapaxes(lever, 1, 2)) ** 2, axis=1)
+        return by_channel.sum(0).diagonal(), own + of_others.diagonal(0, 1, 2)
 
     def influence(self, r, j_shared, j_own) -> tuple[np.ndarray, np.ndarray]:
         """(JᵀJ)⁻¹ Jᵀr sample by sample: how far each moves the shared (samples, p) and each channel's own (channels, samples, q) parameters."""
+        moved, own_moved, lever = self._moved(r, j_shared, j_own)
+        moved = moved.sum(0)
+        return moved, own_moved - moved @ np.swapaxes(lever, 1, 2)
+
+    def _moved(self, r, j_shared, j_own):
+        """How far residuals move the shared parameters, channel by channel, and own ones where shared ones stay; and what own ones follow shared ones by."""
         shared, inverse_own, lever = self._inverses
         pull, own_pull = j_shared * r.T[:, :, None], j_own * r.T[:, :, None]
-        moved = (pull - own_pull @ lever).sum(0) @ shared
-        return moved, own_pull @ inverse_own - moved @ np.swapaxes(lever, 1, 2)
+        return (pull - own_pull @ lever) @ shared, own_pull @ inverse_own, lever
 
     @cached_property
     def _inverses(self):
         """Inverse of the shared block, others eliminated; of each channel's own; and what own parameters follow shared ones by."""
-        inverse_own = _variances(self.own, self.own.diagonal(0, 1, 2))
+        inverse_own = covariance_of(self.own, self.own.diagonal(0, 1, 2))
         lever = inverse_own @ np.swapaxes(self.between, 1, 2)
         reduced = self.shared - np.einsum("cpq,cqs->ps", self.between, lever)
-        return _variances(reduced, np.diag(self.shared)), inverse_own, lever
+        return covariance_of(reduced, np.diag(self.shared)), inverse_own, lever
 
     def condition(self) -> float:
         """Condition number of the shared block, other parameters eliminated, each scaled to unit length."""
@@ -171,8 +174,7 @@ def _within(at, low, high):
 def _sum_of_squares(r) -> float:
     """Infinite where a residual is not a number, so that the step is rejected."""
     flat = r.ravel("K")
-    with np.errstate(over="ignore", invalid="ignore"):
-        total = float(flat @ flat)
+    total = float(flat @ flat)
     return total if total == total else float("inf")
 
 
@@ -230,8 +232,8 @@ def _inverse(matrix):
     return inverse / outer
 
 
-def _variances(matrix, diagonal):
-    """Inverse for a covariance: eigenvalues that rounding could have made count as 1e-15 of the scaled matrix."""
+def covariance_of(matrix, diagonal):
+    """Inverse for a covariance, scaled by this diagonal: eigenvalues that rounding could have made count as 1e-15 of the scaled matrix."""
     if matrix.shape[-1] == 0:
         return matrix
     scale = 1 / np.sqrt(np.where(diagonal > 1e-200, diagonal, 1.0))

@@ -1,7 +1,7 @@
 """What an instrument reported: values with their directions, channels and doubts."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property, wraps
+from functools import cached_property
 
 import numpy as np
 
@@ -53,6 +53,16 @@ class Measurement:
             return (self.brdf > 1 / LARGEST) & (self.brdf < LARGEST) & self.geom.lit
 
     @cached_property
+    def seen(self) -> np.ndarray:
+        """(samples,): where any channel has a usable value."""
+        return np.any(self.usable, axis=1)
+
+    @cached_property
+    def ln(self) -> np.ndarray:
+        """ln of the usable values, (samples, channels); NaN elsewhere."""
+        return np.log(np.where(self.usable, self.brdf, np.nan))
+
+    @cached_property
     def views(self) -> list[tuple[float, Geometry]]:
         """What the detector averages: weights and directions; one of each where it is taken for a point."""
         return aperture.views(self.geom, self.solid_angle)
@@ -97,18 +107,6 @@ class Measurement:
         other = replace(self, findings=self.findings + findings)
         other.__dict__.update({key: value for key, value in self.__dict__.items() if key not in other.__dict__})
         return other
-
-
-def once(function):
-    """A function of a measurement, computed once for each."""
-
-    @wraps(function)
-    def found(measurement: Measurement):
-        if function not in measurement.__dict__:
-            measurement.__dict__[function] = function(measurement)
-        return measurement.__dict__[function]
-
-    return found
 
 
 def row_median(values) -> np.ndarray:

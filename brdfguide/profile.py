@@ -28,31 +28,32 @@ def doubts(layout: Layout, misfit: Misfit, best: levenberg.Minimum, values: Mapp
     for key in (*layout.shared, *(layout.own if layout.channels == 1 else ())):
         parameter = layout.parameters[key]
         value, error = (float(np.ravel(each)[0]) for each in (values[key], stderr[key]))
-        if not parameter.log or not LOOSE < error / abs(slope_of_coordinate(parameter, value)) < UNDETERMINED:
+        sigma = error / abs(slope_of_coordinate(parameter, value))
+        if not parameter.log or not LOOSE < sigma < UNDETERMINED:
             continue
-        reach = 2 * error / abs(slope_of_coordinate(parameter, value))
-        ends = [_end(layout, misfit, best, key, side * reach) for side in (-1, 1)]
-        if all(1 / SKEW < abs(end) / reach < SKEW for end in ends):
+        ends = [_end(layout, misfit, best, key, side * 2 * sigma) for side in (-1, 1)]
+        if all(1 / SKEW < abs(end) / (2 * sigma) < SKEW for end in ends):
             continue
-        at = _block(layout, best, key)
+        at = float(_of(key, layout, best.shared, best.own))
         low, high = (parameter.outside(float(from_coordinate(parameter, at + end))) for end in ends)
         text = f"{key} lies between {low:.3g} and {high:.3g} {parameter.outside_unit}".rstrip() + " (95 %): the misfit is not symmetrical about its value"
         found.append(Finding(f"curved:{key}", text, "note", "two standard errors mislead", numbers=(("low", low), ("high", high))))
     return tuple(found)
 
 
-def _block(layout: Layout, best: levenberg.Minimum, key: str) -> float:
-    return float(best.shared[layout.shared.index(key)] if key in layout.shared else best.own[0, layout.own.index(key)])
+def _of(key: str, layout: Layout, shared, own) -> np.ndarray:
+    """The place of one parameter in the two blocks, shared (p,) and own (1, q), as an array without axes that can be written to."""
+    block, keys = (shared, layout.shared) if key in layout.shared else (own.reshape(-1), layout.own)
+    return block[keys.index(key), ...]
 
 
 def _end(layout: Layout, misfit: Misfit, best: levenberg.Minimum, key: str, reach: float) -> float:
     """How far from the best value the profile has risen by what a parabola promises at `reach`; as far as its bound, or FAR, at most."""
-    at, low, high = _block(layout, best, key), *(float(each[0]) for each in layout.bounds([key]))
+    at, variance = float(_of(key, layout, best.shared, best.own)), float(_of(key, layout, *best.normal.variances(1.0)))
+    low, high = (float(each[0]) for each in layout.bounds([key]))
     furthest = float(np.clip(at + FAR * reach, low, high)) - at
     if furthest == 0.0:
         return 0.0
-    shared, own = best.normal.covariance()
-    variance = shared[layout.shared.index(key), layout.shared.index(key)] if key in layout.shared else own[0, layout.own.index(key), layout.own.index(key)]
     wanted, size = reach**2 / variance, min(1.0, furthest / reach)
     inside, outside = (0.0, 0.0), None  # sizes and the roots of their rises over what is wanted: straight lines where a parabola would do
     for _ in range(STEPS):
@@ -71,10 +72,6 @@ def _profile(layout: Layout, misfit: Misfit, best: levenberg.Minimum, key: str, 
     """The least misfit with one coordinate held."""
     (low, high), (own_low, own_high) = layout.bounds(layout.shared), layout.bounds(layout.own)
     shared, own = best.shared.copy(), best.own.copy()
-    if key in layout.shared:
-        place = layout.shared.index(key)
-        low[place] = high[place] = shared[place] = held
-    else:
-        place = layout.own.index(key)
-        own_low[place] = own_high[place] = own[0, place] = held
+    for blocks in ((shared, own), (low, own_low), (high, own_high)):
+        _of(key, layout, *blocks)[...] = held
     return levenberg.minimise(misfit, shared, own, low=low, high=high, own_low=own_low, own_high=own_high, tolerance=1e-5, most=40).cost

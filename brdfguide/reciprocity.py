@@ -74,7 +74,7 @@ def _told(measurement: Measurement, here, there):
 def _exchanged(measurement: Measurement, seed: int):
     """Row numbers of directions and of those nearest to their exchange; None for fewer than 12."""
     geom = measurement.geom
-    rows = np.flatnonzero(np.any(measurement.usable, axis=1))
+    rows = np.flatnonzero(measurement.seen)
     if len(rows) < 12 or len(geom) > 200_000:
         return None
     here = rows if len(rows) <= MOST else rows[sorted(Random(seed).sample(range(len(rows)), MOST))]

@@ -22,11 +22,10 @@ class Retro:
 def lobe(measurement: Measurement) -> Retro | None:
     """None where nothing was measured within 6 degrees of the source at incidences beyond 12 degrees."""
     geom = measurement.geom
-    usable = np.any(measurement.usable, axis=1)
     level = row_median(np.where(measurement.usable, measurement.brdf, np.nan))
     source = conventions.retro_distance_deg(geom)[:, 0]
     mirror = np.degrees(2 * np.arcsin(np.minimum(0.5 * np.sqrt(geom.mirror_distance2[:, 0]), 1.0)))
-    counted = usable & ((mirror > np.minimum(geom.theta_i_deg[:, 0], 12.0)) | (mirror < source))
+    counted = measurement.seen & ((mirror > np.minimum(geom.theta_i_deg[:, 0], 12.0)) | (mirror < source))
     at_source, about = counted & (source < 6.0), counted & (source > 10.0) & (source < 25.0) & (mirror > 12.0)
     before = counted & (mirror < source) & (source > 15.0)
     lobes, over = [], []

@@ -4,7 +4,8 @@ from random import Random
 
 import numpy as np
 
-from .measurement import Finding, Measurement, once
+from .geometry import once
+from .measurement import Finding, Measurement
 
 THETA_I_BANDS = 16
 TILT_BANDS = 24

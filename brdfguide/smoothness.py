@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from .measurement import Measurement, once, row_median, rows_by_tenth
+from .geometry import once
+from .measurement import Measurement, row_median, rows_by_tenth
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
 # how far, in ln, a spike stands above its neighbours, and how many times as fast it drops as they go on to fall
@@ -20,7 +21,7 @@ def noise(measurement: Measurement) -> float | None:
     directions mirrored at the plane of incidence are compared, or each with a parabola through its neighbours. The median is used, so that peaks do not count as noise.
     In a dense table neighbours stand beside each other in the file. None where nothing can be compared.
     """
-    level = _ln(measurement)
+    level = measurement.ln
     if len(level) > DENSE:
         return _in_file_order(level)
     departures = [departure for scan in _scans(measurement) for departure in _departures(*scan, level)]
@@ -49,7 +50,7 @@ def spikes(measurement: Measurement) -> np.ndarray:
     mask = np.zeros(len(measurement.geom), bool)
     if len(mask) > DENSE:
         return mask
-    level = np.nanmax(np.where(measurement.usable, _ln(measurement), -np.inf), axis=1)
+    level = np.nanmax(np.where(measurement.usable, measurement.ln, -np.inf), axis=1)
     distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
     near = (distance <= SPIKE_DEG) & np.isfinite(level)
     for rows in _groups(measurement):
@@ -78,7 +79,7 @@ def dark_edges(measurement: Measurement) -> np.ndarray:
     mask = np.zeros(len(measurement.geom), bool)
     if len(mask) > DENSE:
         return mask
-    level = row_median(_ln(measurement))
+    level = row_median(measurement.ln)
     distance = np.degrees(np.sqrt(measurement.geom.mirror_distance2[:, 0]))
     for rows, angle in _scans(measurement):
         keep = np.isfinite(level[rows]) & (np.abs(angle) >= EDGE_DEG - 8)
@@ -91,11 +92,6 @@ def dark_edges(measurement: Measurement) -> np.ndarray:
             if len(cliff) and np.all(distance[outward[cliff[0] + 1 :]] > 15) and measurement.geom.theta_r_deg[outward[cliff[0] + 1], 0] >= EDGE_DEG:
                 mask[outward[cliff[0] + 1 :]] = True
     return mask
-
-
-def _ln(measurement: Measurement) -> np.ndarray:
-    usable = measurement.usable
-    return np.where(usable, np.log(np.where(usable, measurement.brdf, 1.0)), np.nan)
 
 
 def _groups(measurement: Measurement):

@@ -8,7 +8,8 @@ from itertools import combinations, product
 
 import numpy as np
 
-from .measurement import Measurement, once
+from .geometry import once
+from .measurement import Measurement
 from .misfit import SMALLEST, Layout
 from .models import Sum
 

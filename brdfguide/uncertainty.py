@@ -5,7 +5,7 @@ from math import erfc, sqrt
 import numpy as np
 
 from . import optics
-from .levenberg import Normal
+from .levenberg import Normal, covariance_of
 from .measurement import Finding, Measurement
 from .misfit import Layout, slope_of_coordinate
 
@@ -145,7 +145,7 @@ def doubts(layout: Layout, values: dict, errors: dict, normal: Normal, variance:
         value, error = np.atleast_1d(values[key]), np.atleast_1d(errors[key])
         span = parameter.high - parameter.low
         for end, bound in (("low", parameter.low), ("high", parameter.high)):
-            at = np.abs(value - bound) <= 1e-9 * abs(bound)
+            at = _at(bound, value)
             if np.any(at) and not (parameter.linear and end == "low"):
                 found.append(Finding(f"at-bound:{key}", f"{key} ended at its {end} bound {parameter.outside(bound):.4g}", "warning", "its true value may lie beyond"))
             elif np.all(at):
@@ -175,7 +175,7 @@ def _ridge(layout: Layout, values: dict, normal: Normal, variance: float) -> lis
     full[:p, p:] = normal.between.sum(0)
     full[p:, :p] = full[:p, p:].T
     full[p:, p:] = normal.own.sum(0)  # the channels together: one amplitude of each kind
-    free = [place for place, key in enumerate(keys) if full[place, place] > 0 and not _at_bound(layout.parameters[key], values[key])]
+    free = [place for place, key in enumerate(keys) if full[place, place] > 0 and not np.any([_at(bound, values[key]) for bound in (layout.parameters[key].low, layout.parameters[key].high)])]
     if len(free) < 2:
         return []
     keys, full = [keys[place] for place in free], full[np.ix_(free, free)]
@@ -187,14 +187,14 @@ def _ridge(layout: Layout, values: dict, normal: Normal, variance: float) -> lis
         return []
     text = f"only a combination of {' and '.join(keys[place] for place in weak)} is determined (condition number {condition:.0f})"
     if len(weak) == 2 and strength[0] > 0:
-        inverse = np.einsum("ij,j,kj->ik", vectors, 1 / np.maximum(strength, 1e-15), vectors) / np.outer(scale, scale)
-        pair = sorted(weak)
+        inverse, pair = covariance_of(full, np.diag(full)), sorted(weak)
         text += _across(layout, values, [keys[place] for place in pair], vectors[pair, 0] / scale[pair], variance * inverse[np.ix_(pair, pair)])
     return [Finding("ridge", text, "warning", "move them together or fix one", "--fix", (("condition", condition),))]
 
 
-def _at_bound(parameter, value) -> bool:
-    return bool(np.any([np.abs(np.asarray(value) - bound) <= 1e-9 * abs(bound) for bound in (parameter.low, parameter.high)]))
+def _at(bound: float, value):
+    """Where a value stands at a bound."""
+    return np.abs(value - bound) <= 1e-9 * abs(bound)
 
 
 def _across(layout: Layout, values: dict, keys: list[str], along, covariance) -> str:

@@ -6,8 +6,8 @@ import numpy as np
 
 from . import fitting, levenberg, starts
 from .fitting import Fit, Options
-from .geometry import in_plane
-from .measurement import Finding, Measurement, once
+from .geometry import in_plane, once
+from .measurement import Finding, Measurement
 from .misfit import Layout, Misfit, metric
 from .ranking import Ranking, recommend
 
@@ -94,7 +94,7 @@ def _lobes(fit: Fit) -> int:
 
 def thinned(measurement: Measurement) -> Measurement:
     """Few enough directions and channels for repeated fits."""
-    seen = measurement[np.any(measurement.usable, axis=1)]
+    seen = measurement[measurement.seen]
     rows = starts.spread_rows(seen, SAMPLES)
     return seen[rows].of_channels(fitting.few_channels(measurement.brdf.shape[1]))
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from .errors import InputError, choices
-from .measurement import Finding, Measurement, once
+from .geometry import once
+from .measurement import Finding, Measurement
 from .smoothness import DENSE
 
 KINDS = ("auto", "none", "stderr", "sampling")
@@ -42,12 +43,11 @@ def votes(measurement: Measurement, kind: str = "auto") -> np.ndarray | None:
     counts = _directions_of_scans(measurement) if kind in ("auto", "sampling") else None
     if counts is None:
         return None
-    seen = np.any(measurement.usable, axis=1)
-    most, least = counts[seen].max(), counts[seen].min()
+    most, least = counts[measurement.seen].max(), counts[measurement.seen].min()
     if most <= (ALIKE if kind == "auto" else 1.0) * least:
         return None
     counted = np.minimum(most / np.maximum(counts, 1), MOST_VOTES)
-    return (counted / counted[seen].mean())[:, None]
+    return (counted / counted[measurement.seen].mean())[:, None]
 
 
 def stated(measurement: Measurement, kind: str = "auto") -> tuple[Finding, ...]:
@@ -56,7 +56,7 @@ def stated(measurement: Measurement, kind: str = "auto") -> tuple[Finding, ...]:
     if kind in ("auto", "stderr") and measurement.stderr is not None:
         found.append(Finding("weighed-by-stderr", "each value is weighed by its standard error", option="--weights none"))
     if votes(measurement, kind) is not None:
-        counts = _directions_of_scans(measurement)[np.any(measurement.usable, axis=1)]
+        counts = _directions_of_scans(measurement)[measurement.seen]
         text = f"the scans hold {counts.min()} to {counts.max()} directions: every incidence counts alike in fits and errors, no direction over {MOST_VOTES:g} times another"
         found.append(Finding("weighed-by-scan", text, option="--weights none"))
     return tuple(found)
@@ -70,7 +70,7 @@ def rms(residuals, votes=None) -> float:
 @once
 def _directions_of_scans(measurement: Measurement) -> np.ndarray | None:
     """For each direction, how many with a value there are at its incidence; None where no incidence was held."""
-    theta_i, seen = measurement.geom.theta_i_deg[:, 0], np.any(measurement.usable, axis=1)
+    theta_i, seen = measurement.geom.theta_i_deg[:, 0], measurement.seen
     if len(theta_i) > DENSE or not seen.any():
         return None
     order = np.argsort(theta_i, kind="stable")

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from brdfguide.geometry import Geometry, in_plane, rows
+from brdfguide.geometry import Geometry, in_plane, once, rows
 
 from .models.textbook import Pair, mp
 
@@ -97,5 +97,5 @@ def test_horizon_is_dark_and_harmless():
 
 def test_factor_of_directions_is_formed_once():
     geom, calls = in_plane(30, 40), []
-    factor = lambda g: calls.append(1) or g.cos_i  # noqa: E731
-    assert geom.remembered(factor) is geom.remembered(factor) and len(calls) == 1
+    factor = once(lambda g: calls.append(1) or g.cos_i)
+    assert factor(geom) is factor(geom) and len(calls) == 1

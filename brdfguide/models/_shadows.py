@@ -5,7 +5,7 @@ from math import pi, sqrt
 import numpy as np
 
 from .. import optics
-from ..geometry import Geometry
+from ..geometry import Geometry, once
 from ..special import erfcx, lambert_w
 from ._series_cells import ln_series
 
@@ -59,6 +59,7 @@ def fresnel(geom, n, k):
     return geom.__dict__[key][1]
 
 
+@once
 def height_factor(geom):
     """(|i + r|²/v_z)², what is left of G with unit vectors."""
     return (geom.v2 / geom.v_z) ** 2
@@ -68,9 +69,10 @@ def in_blocks(parts, geom, *values):
     """`parts(geom, *values)`, for long arrays piece by piece, so that what it forms on the way stays in the cache."""
     if len(geom.shape) != 1 or len(geom) <= BLOCK or any(np.ndim(value) for value in (*values, geom.wavelength)):
         return parts(geom, *values)
-    return tuple(map(np.concatenate, zip(*(parts(piece, *values) for piece in geom.remembered(pieces)))))
+    return tuple(map(np.concatenate, zip(*(parts(piece, *values) for piece in pieces(geom)))))
 
 
+@once
 def pieces(geom):
     return tuple(piece for _, piece in geom.blocks(BLOCK))
 
@@ -99,6 +101,6 @@ def reduced(*out: str):
             series = np.exp(-x) / g if "waves" in out else np.exp(-x) * (1 + (x * x - 4 * x + 2) / (2 * g)) / g
         else:
             series = np.exp(ln_series(g, y))
-        return (pi / 4) * scale * (sigma / slope / geom.wavelength) ** 2 * f * shadow * geom.remembered(height_factor) * series
+        return (pi / 4) * scale * (sigma / slope / geom.wavelength) ** 2 * f * shadow * height_factor(geom) * series
 
     return brdf

@@ -14,7 +14,7 @@ Source: Cook and Torrance 1982, "A reflectance model for computer graphics".
 import numpy as np
 
 from .. import optics
-from ..geometry import Geometry, in_plane
+from ..geometry import Geometry, in_plane, once
 from ._base import Extreme, Model, Parameter, Pin
 from ._microfacet import INDEX, beckmann, gradient_of, with_fixed_fresnel
 
@@ -26,9 +26,10 @@ def masking(geom: Geometry) -> np.ndarray:
 
 def shape(geom: Geometry, alpha) -> np.ndarray:
     """D G/(4 cos θi cos θr) [1/sr]: the law without Fresnel."""
-    return beckmann(geom, alpha) * geom.remembered(_over_cosines)
+    return beckmann(geom, alpha) * _over_cosines(geom)
 
 
+@once
 def _over_cosines(geom: Geometry):
     """G/(4 cos θi cos θr)."""
     return masking(geom) / (4 * geom.cos_cos)

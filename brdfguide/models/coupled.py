@@ -13,15 +13,16 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane
+from ..geometry import Geometry, in_plane, once
 from ._base import Extreme, Model, Parameter, Pin
 
 
 def brdf(geom: Geometry, *, albedo) -> np.ndarray:
     """BRDF [1/sr], in the shape of `geom`."""
-    return (albedo * (21 / (20 * pi))) * geom.remembered(_both)
+    return (albedo * (21 / (20 * pi))) * _both(geom)
 
 
+@once
 def _both(geom: Geometry):
     """In and out again."""
     return through(geom.cos_i) * through(geom.cos_r)

@@ -15,7 +15,7 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane
+from ..geometry import Geometry, in_plane, once
 from ._base import Extreme, Model, Parameter, Pin
 
 C1, C2 = 1 / 2 - 2 / (3 * pi), 2 / 3 - 28 / (15 * pi)
@@ -26,12 +26,12 @@ def brdf(geom: Geometry, *, albedo, roughness) -> np.ndarray:
     a = 1 / (1 + C1 * roughness)
     mean = a * (1 + C2 * roughness)
     again = albedo * albedo * mean / (1 - albedo * (1 - mean))
-    return (albedo * a / pi) * (1 + roughness * geom.remembered(_forward)) + (again * a * roughness / pi) * geom.remembered(_kept)
+    return (albedo * a / pi) * (1 + roughness * _forward(geom)) + (again * a * roughness / pi) * _kept(geom)
 
 
-def once(geom: Geometry, *, albedo, roughness) -> np.ndarray:
+def fujii(geom: Geometry, *, albedo, roughness) -> np.ndarray:
     """Fujii's form alone [1/sr], without what returns after further bounces."""
-    return albedo / (pi * (1 + C1 * roughness)) * (1 + roughness * geom.remembered(_forward))
+    return albedo / (pi * (1 + C1 * roughness)) * (1 + roughness * _forward(geom))
 
 
 def smooth(geom: Geometry, *, albedo, roughness) -> np.ndarray:
@@ -43,7 +43,7 @@ def gradient(geom: Geometry, names, *, albedo, roughness) -> dict[str, np.ndarra
     """Through A' = -c1 A² and Ē' = A' (1 + c2 r) + A c2."""
     a = 1 / (1 + C1 * roughness)
     mean, lost = a * (1 + C2 * roughness), 1 - a * (1 + C2 * roughness)
-    by_a, forward, kept = -C1 * a * a, geom.remembered(_forward), geom.remembered(_kept)
+    by_a, forward, kept = -C1 * a * a, _forward(geom), _kept(geom)
     by_mean = by_a * (1 + C2 * roughness) + a * C2
     left = 1 - albedo * lost
     again, again_by_albedo = albedo**2 * mean / left, albedo * mean * (2 - albedo * lost) / left**2
@@ -55,11 +55,13 @@ def gradient(geom: Geometry, names, *, albedo, roughness) -> dict[str, np.ndarra
     }
 
 
+@once
 def _forward(geom: Geometry):
     """s/t."""
     return geom.dot_xy / np.where(geom.dot_xy > 0, np.maximum(geom.cos_i, geom.cos_r), 1.0)
 
 
+@once
 def _kept(geom: Geometry):
     """(1 - E(θi)) (1 - E(θr)) / ((1 - Ē) A r) = (c1 - Gi/π) (c1 - Gr/π)/(c1 - c2), of which A r stands outside."""
     return _lost(geom.cos_i, geom.sin_i) * _lost(geom.cos_r, geom.sin_r) / (C1 - C2)
@@ -80,7 +82,7 @@ MODEL = Model(
         Parameter("roughness", 0.4, 0.0, 1.0, meaning="0: Lambert; 1: the roughest", starts=(0.2, 0.7)),
     ),
     gradient=gradient,
-    without={"interreflection": once, "roughness": smooth},
+    without={"interreflection": fujii, "roughness": smooth},
     summary="rough diffusers without loss or gain of light: clay, matte paper, dust; what OpenPBR calls base diffuse",
     pins=(
         Pin(in_plane(45, 50), {"albedo": 0.75, "roughness": 0.7}, f=0.14751454901569819, source="50 digits"),

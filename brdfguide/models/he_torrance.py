@@ -72,7 +72,7 @@ def _parts(geom, sigma, slope, n, k, scale, derivatives=False):
     g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * shadow_free(spread)) ** 2
     y = (pi * tau / geom.wavelength) ** 2 * geom.vxy2
     shadow_i *= shadow_r
-    shadow_i *= geom.remembered(height_factor)
+    shadow_i *= height_factor(geom)
     f = 1.0 if n is None else fresnel(geom, n, k)
     factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow_i
     return (factor, g, y, by_i[0] + by_r[0], ln_g_by_ln_slope(spread, by_i[1] + by_r[1])) if derivatives else (factor, g, y)

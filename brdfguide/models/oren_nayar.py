@@ -16,7 +16,7 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane
+from ..geometry import Geometry, in_plane, once
 from ._base import Extreme, Model, Parameter, Pin
 
 
@@ -43,7 +43,7 @@ def gradient(geom: Geometry, names, *, albedo, spread) -> dict[str, np.ndarray]:
     """df/dalbedo, and df/dspread with d(s²/(s² + c))/dspread = 2 spread c/(s² + c)²."""
     s2 = spread * spread
     once, between = _parts(geom, s2)
-    rays, grooves = geom.remembered(_rays), geom.remembered(_grooves)
+    rays, grooves = _rays(geom), _grooves(geom)
     slope = {c: 2 * spread * c / (s2 + c) ** 2 for c in (0.33, 0.09, 0.13)}
     by_spread = -0.5 * slope[0.33] + slope[0.09] * rays + albedo * 0.17 * slope[0.13] * grooves
     return {"albedo": (once + 2 * albedo * between) / pi, "spread": albedo / pi * by_spread}
@@ -51,10 +51,11 @@ def gradient(geom: Geometry, names, *, albedo, spread) -> dict[str, np.ndarray]:
 
 def _parts(geom: Geometry, s2):
     """Light scattered once, per albedo/π, and light between facets, per albedo²/π."""
-    once = (1 - 0.5 * s2 / (s2 + 0.33)) + (s2 / (s2 + 0.09)) * geom.remembered(_rays)
-    return once, (0.17 * s2 / (s2 + 0.13)) * geom.remembered(_grooves)
+    once = (1 - 0.5 * s2 / (s2 + 0.33)) + (s2 / (s2 + 0.09)) * _rays(geom)
+    return once, (0.17 * s2 / (s2 + 0.13)) * _grooves(geom)
 
 
+@once
 def _rays(geom: Geometry):
     """C2 cos φ tan β + C3 (1 - |cos φ|) tan((α + β)/2), per s²/(s² + 0.09).
 
@@ -70,6 +71,7 @@ def _rays(geom: Geometry):
     return 0.45 * (toward + away) + sideways
 
 
+@once
 def _grooves(geom: Geometry):
     """1 - cos φ (2β/π)²."""
     return 1 - np.cos(np.radians(geom.phi_deg)) * (2 * np.minimum(geom.theta_i, geom.theta_r) / pi) ** 2
