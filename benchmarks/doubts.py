@@ -1,6 +1,6 @@
 """Is a wrong law accused and a right one not; is a difference between two fits as uncertain as printed?
 
-    python benchmarks/doubts.py [draws]
+python benchmarks/doubts.py [draws]
 """
 
 import os
@@ -11,53 +11,70 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-import numpy as np  # noqa: E402
+import numpy as np
 
-from brdfguide import fitting, models, ranking, uncertainty  # noqa: E402
-from tests import synthetic  # noqa: E402
+from brdfguide import models
+from brdfguide.fitting import fit, ranking
+from brdfguide.fitting.diagnostics import standard_errors
+from brdfguide.fitting.residuals import ln_residuals
+from tests import synthetic
 
 GGX, COOK = models.get("lambertian+ggx"), models.get("lambertian+cook-torrance")
 TRUTH = {**GGX.defaults(), "lambertian.albedo": 0.3, "ggx.alpha": 0.22, "ggx.n": 1.5}
-OTHERS = {"alpha + 2 %": ("ggx.alpha", 0.225), "alpha + 18 %": ("ggx.alpha", 0.26), "n + 0.1": ("ggx.n", 1.6), "albedo + 2 %": ("lambertian.albedo", 0.305)}
+OTHERS = {
+    "alpha + 2 %": ("ggx.alpha", 0.225),
+    "alpha + 18 %": ("ggx.alpha", 0.26),
+    "n + 0.1": ("ggx.n", 1.6),
+    "albedo + 2 %": ("lambertian.albedo", 0.305),
+}
 
 
-def discrepancies(geom, channels: int, draws: int) -> tuple[int, int]:
+def discrepancies(geom, channels: int, samples: int) -> tuple[int, int]:
     """How often the flag is raised on GGX data at 2 % noise: fitted with Cook-Torrance, and with GGX."""
     wrong = right = 0
-    for seed in range(draws):
+    for seed in range(samples):
         random = np.random.default_rng(seed)
-        values = {"lambertian.albedo": random.uniform(0.05, 0.6), "ggx.alpha": random.uniform(0.1, 0.5), "ggx.n": random.uniform(1.3, 2)}
+        values = {
+            "lambertian.albedo": random.uniform(0.05, 0.6),
+            "ggx.alpha": random.uniform(0.1, 0.5),
+            "ggx.n": random.uniform(1.3, 2),
+        }
         data = synthetic.surface(GGX, geom, values, noise=0.02, seed=seed, channels=channels)
-        wrong += fitting.fit(COOK, data).has("discrepancy")
-        right += fitting.fit(GGX, data).has("discrepancy")
+        wrong += fit.fit(COOK, data).has("discrepancy")
+        right += fit.fit(GGX, data).has("discrepancy")
     return wrong, right
 
 
-def scores(geom, key: str, value: float, draws: int) -> np.ndarray:
+def scores(geom, key: str, value: float, samples: int) -> np.ndarray:
     """Printed difference over its printed error, of two laws on either side of the truth."""
     data = synthetic.surface(GGX, geom, TRUTH)
-    segments, bend = uncertainty.segments_of(data, uncertainty.along_scans(data)), fitting.ln_residuals(GGX, data, {**TRUTH, key: value})
+    blocks = standard_errors.blocks_of(data, standard_errors.along_scans(data))
+    bend = ln_residuals(synthetic.fitted(GGX, {**TRUTH, key: value}, data), data)
     out = []
-    for seed in range(draws):
+    for seed in range(samples):
         noise = 0.03 * np.random.default_rng([seed, 31]).standard_normal(data.brdf.shape)
-        behind, error = ranking.difference(noise + 0.5 * bend, noise - 0.5 * bend, segments)
+        behind, error = ranking.rms_difference(noise + 0.5 * bend, noise - 0.5 * bend, blocks)
         out.append(behind / error)
     return np.array(out)
 
 
-def main(draws: int) -> None:
-    print(f"discrepancy raised in {draws} draws: by Cook-Torrance, by GGX itself")
+def main(samples: int) -> None:
+    print(f"discrepancy raised in {samples} draws: by Cook-Torrance, by GGX itself")
     for name, geom in (("six scans", synthetic.scan()), ("600 scattered", synthetic.hemisphere(600))):
         for channels in (1, 3):
-            print("  %-16s %d channels  %4d %4d" % (name, channels, *discrepancies(geom, channels, draws)), flush=True)
-    print(f"two laws equally wrong, {10 * draws} draws: mean, width and share within 2 of the printed z")
+            theirs, own = discrepancies(geom, channels, samples)
+            print(f"  {name:16} {channels} channels  {theirs:4} {own:4}", flush=True)
+    print(f"two laws equally wrong, {10 * samples} draws: mean, width and share within 2 of the printed z")
     places = {
-        "scans, 4 deg": synthetic.scan(), "scans, 1 deg": synthetic.scan(step=1.0), "one scan": synthetic.scan((30,), step=2.0),
-        "600 scattered": synthetic.hemisphere(600), "3000 scattered": synthetic.hemisphere(3000),
-    }  # fmt: skip
+        "scans, 4 deg": synthetic.scan(),
+        "scans, 1 deg": synthetic.scan(step=1.0),
+        "one scan": synthetic.scan((30,), step=2.0),
+        "600 scattered": synthetic.hemisphere(600),
+        "3000 scattered": synthetic.hemisphere(3000),
+    }
     for name, geom in places.items():
         for title, (key, value) in OTHERS.items():
-            z = scores(geom, key, value, 10 * draws)
+            z = scores(geom, key, value, 10 * samples)
             print(f"  {name:16} {title:14} {z.mean():+.2f}  {z.std():.2f}  {100 * np.mean(np.abs(z) < 2):.1f} %")
 
 

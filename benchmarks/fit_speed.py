@@ -1,4 +1,5 @@
-"""Our fit against what a careful user would write: a plain SciPy script and lmfit, same data, same run; and whole commands, cold.
+"""Our fit against what a careful user would write: a plain SciPy script and lmfit, same data, same run; and whole
+commands, cold.
 
     python benchmarks/fit_speed.py [MERL table]
 
@@ -22,23 +23,30 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-import numpy as np  # noqa: E402
+import numpy as np
 
-from brdfguide import fitting, models  # noqa: E402
-from brdfguide.misfit import Layout, Misfit, metric  # noqa: E402
-from tests import synthetic  # noqa: E402
+from brdfguide import models
+from brdfguide.fitting import fit as fitting
+from brdfguide.fitting.layout import Layout
+from brdfguide.fitting.objective import Misfit, metric
+from tests import synthetic
 
 DIRECTIONS, CHANNELS, TURNS, COLD_TURNS = 20_000, 3, 3, 7
 MODEL = models.get("lambertian+ggx")
 TRUTH = {"lambertian.albedo": np.array([0.30, 0.20, 0.10]), "ggx.alpha": 0.25, "ggx.n": np.array([1.50, 1.52, 1.55])}
-START, LOW, HIGH = np.r_[0.2, [0.5] * 3, [1.5] * 3], np.r_[1e-4, [0.0] * 3, [1.0001] * 3], np.r_[1.5, [1.0] * 3, [100.0] * 3]
+START = np.r_[0.2, [0.5] * 3, [1.5] * 3]
+LOW = np.r_[1e-4, [0.0] * 3, [1.0001] * 3]
+HIGH = np.r_[1.5, [1.0] * 3, [100.0] * 3]
 
 
 def plain(geom, x):
     """The model as a script would have it: x = alpha, three albedos, three indices."""
     alpha2, albedo, n = x[0] ** 2, x[1:4], x[4:7]
     facets = alpha2 / (np.pi * (geom.tan2_h + alpha2) ** 2) * (1 + geom.tan2_h) ** 2
-    hidden = lambda cos: np.sqrt(alpha2 + (1 - alpha2) * cos**2)  # noqa: E731
+
+    def hidden(cos):
+        return np.sqrt(alpha2 + (1 - alpha2) * cos**2)
+
     mask = 2 / (geom.cos_r * hidden(geom.cos_i) + geom.cos_i * hidden(geom.cos_r))
     c = geom.cos_d
     g = np.sqrt(n**2 + c**2 - 1)
@@ -50,7 +58,9 @@ def with_scipy(data):
     from scipy.optimize import least_squares
 
     ln_data = np.log(data.brdf)
-    found = least_squares(lambda x: (np.log(plain(data.geom, x)) - ln_data).ravel(), START, bounds=(LOW, HIGH), x_scale=START)
+    found = least_squares(
+        lambda x: (np.log(plain(data.geom, x)) - ln_data).ravel(), START, bounds=(LOW, HIGH), x_scale=START
+    )
     return np.sqrt(np.mean(found.fun**2))
 
 
@@ -59,10 +69,12 @@ def with_scipy_and_derivatives(data):
 
     layout = Layout(MODEL, CHANNELS)
     misfit, memory = Misfit(layout, data, metric("ln"), np.ones_like(data.brdf)), {}
-    split = lambda x: (x[:1], x[1:].reshape(CHANNELS, 2))  # noqa: E731
+
+    def split(x):
+        return (x[:1], x[1:].reshape(CHANNELS, 2))
 
     def residuals(x):
-        memory["x"], (memory["r"], memory["shared"], memory["own"]) = x.copy(), misfit(*split(x), True)
+        memory["x"], (memory["r"], memory["shared"], memory["per_channel"]) = x.copy(), misfit(*split(x), True)
         return memory["r"].T.ravel()
 
     def jacobian(x):
@@ -71,12 +83,15 @@ def with_scipy_and_derivatives(data):
         out = np.zeros((CHANNELS, len(data.brdf), 1 + 2 * CHANNELS))
         out[:, :, :1] = memory["shared"]
         for channel in range(CHANNELS):
-            out[channel, :, 1 + 2 * channel : 3 + 2 * channel] = memory["own"][channel]
+            out[channel, :, 1 + 2 * channel : 3 + 2 * channel] = memory["per_channel"][channel]
         return out.reshape(-1, out.shape[2])
 
-    shared, own = layout.encode(MODEL.defaults())
-    low, high = (np.r_[a, np.tile(b, CHANNELS)] for a, b in zip(layout.bounds(layout.shared), layout.bounds(layout.own)))
-    found = least_squares(residuals, np.r_[shared, own.ravel()], jac=jacobian, bounds=(low, high))
+    shared, per_channel = layout.encode(MODEL.defaults())
+    low, high = (
+        np.r_[a, np.tile(b, CHANNELS)]
+        for a, b in zip(layout.bounds(layout.shared), layout.bounds(layout.per_channel), strict=True)
+    )
+    found = least_squares(residuals, np.r_[shared, per_channel.ravel()], jac=jacobian, bounds=(low, high))
     return np.sqrt(np.mean(found.fun**2))
 
 
@@ -84,9 +99,11 @@ def with_lmfit(data):
     import lmfit
 
     ln_data, parameters = np.log(data.brdf), lmfit.Parameters()
-    for place, (value, low, high) in enumerate(zip(START, LOW, HIGH)):
+    for place, (value, low, high) in enumerate(zip(START, LOW, HIGH, strict=True)):
         parameters.add(f"x{place}", value=value, min=low, max=high)
-    found = lmfit.minimize(lambda p: (np.log(plain(data.geom, np.array(list(p.valuesdict().values())))) - ln_data).ravel(), parameters)
+    found = lmfit.minimize(
+        lambda p: (np.log(plain(data.geom, np.array(list(p.valuesdict().values())))) - ln_data).ravel(), parameters
+    )
     return np.sqrt(np.mean(found.residual**2))
 
 
@@ -97,7 +114,12 @@ def ours(data):
 def cold(path, *words) -> tuple[float, float, float]:
     """Processor seconds, wall seconds and peak memory [MB] of a whole command in a new process."""
     before, began = os.times(), time.perf_counter()
-    subprocess.run([sys.executable, "-m", "brdfguide", "fit", str(path), "--quiet", *words], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [sys.executable, "-m", "brdfguide", "fit", str(path), "--quiet", *words],
+        cwd=ROOT,
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     after, wall = os.times(), time.perf_counter() - began
     used = after.children_user + after.children_system - before.children_user - before.children_system
     return used, wall, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
@@ -107,12 +129,30 @@ def whole_commands(data, table: str | None) -> None:
     """Before SciPy is imported: a new process is born with the peak memory of its parent."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "data.csv"
-        angles = (data.geom.theta_i_deg[:, 0], 0 * data.geom.theta_r_deg[:, 0], data.geom.theta_r_deg[:, 0], data.geom.phi_deg[:, 0])
-        np.savetxt(path, np.column_stack((*angles, data.brdf)), "%.7g", ",", header="theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,450,550,650", comments="")
+        angles = (
+            data.geom.theta_i_deg[:, 0],
+            0 * data.geom.theta_r_deg[:, 0],
+            data.geom.theta_r_deg[:, 0],
+            data.geom.phi_deg[:, 0],
+        )
+        np.savetxt(
+            path,
+            np.column_stack((*angles, data.brdf)),
+            "%.7g",
+            ",",
+            header="theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,450,550,650",
+            comments="",
+        )
         with one_core():
-            used, wall, memory = zip(*(cold(path) for _ in range(COLD_TURNS)))
-    print(f"{DIRECTIONS} directions x {CHANNELS} channels, whole command, cold, all default candidates with uncertainties and held-out errors, one core, {COLD_TURNS} turns:")
-    print(f"  {min(used):.2f} to {max(used):.2f} s processor, {min(wall):.2f} to {max(wall):.2f} s by the clock, {max(memory):.0f} MB")
+            used, wall, memory = zip(*(cold(path) for _ in range(COLD_TURNS)), strict=True)
+    print(
+        f"{DIRECTIONS} directions x {CHANNELS} channels, whole command, cold, all default candidates with "
+        f"uncertainties and held-out errors, one core, {COLD_TURNS} turns:"
+    )
+    print(
+        f"  {min(used):.2f} to {max(used):.2f} s processor, {min(wall):.2f} to {max(wall):.2f} s by the clock, "
+        f"{max(memory):.0f} MB"
+    )
     if table:
         used, wall, memory = cold(table)
         print(f"{Path(table).name}: {used:.1f} s processor, {wall:.1f} s by the clock, {memory:.0f} MB")
@@ -132,13 +172,22 @@ def one_core():
 
 def main(table: str | None) -> None:
     data = synthetic.surface(MODEL, synthetic.hemisphere(DIRECTIONS), TRUTH, noise=0.03, seed=1, channels=CHANNELS)
-    assert np.allclose(plain(data.geom, np.r_[0.25, TRUTH["lambertian.albedo"], TRUTH["ggx.n"]]), MODEL(data.geom, TRUTH), rtol=1e-12)
+    assert np.allclose(
+        plain(data.geom, np.r_[0.25, TRUTH["lambertian.albedo"], TRUTH["ggx.n"]]), MODEL(data.geom, TRUTH), rtol=1e-12
+    )
     whole_commands(data, table)
-    rivals = {"ours: starts, fit, intervals, doubts": ours, "SciPy, differences": with_scipy, "SciPy, our derivatives": with_scipy_and_derivatives, "lmfit": with_lmfit}
+    rivals = {
+        "ours: starts, fit, intervals, doubts": ours,
+        "SciPy, differences": with_scipy,
+        "SciPy, our derivatives": with_scipy_and_derivatives,
+        "lmfit": with_lmfit,
+    }
     least, error = {}, {}
     for _ in range(TURNS):
         for name, fit in rivals.items():
-            fresh = synthetic.surface(MODEL, synthetic.hemisphere(DIRECTIONS), TRUTH, noise=0.03, seed=1, channels=CHANNELS)
+            fresh = synthetic.surface(
+                MODEL, synthetic.hemisphere(DIRECTIONS), TRUTH, noise=0.03, seed=1, channels=CHANNELS
+            )
             began = time.process_time()
             try:
                 error[name] = fit(fresh)
@@ -148,7 +197,10 @@ def main(table: str | None) -> None:
     print("one model, processor time of the fit alone:")
     for name in rivals:
         if name in least:
-            print(f"  {name:38} {least[name]:6.2f} s  {least[name] / least[next(iter(rivals))]:5.1f} x   rms ln {error[name]:.6f}")
+            print(
+                f"  {name:38} {least[name]:6.2f} s  {least[name] / least[next(iter(rivals))]:5.1f} x   rms ln "
+                f"{error[name]:.6f}"
+            )
         else:
             print(f"  {name:38} absent: not installed")
 

@@ -1,4 +1,5 @@
-"""What He-Torrance costs: ns per evaluation against our own ggx and against a plain sum of 40 terms, in turns in one run.
+"""What He-Torrance costs: ns per evaluation against our own ggx and against a plain sum of 40 terms, in turns in one
+run.
 
     python benchmarks/he_torrance.py [seconds]
 
@@ -13,16 +14,21 @@ import time
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 
-import numpy as np  # noqa: E402
+import numpy as np
 
-from brdfguide import models  # noqa: E402
-from brdfguide.geometry import Geometry  # noqa: E402
-from brdfguide.models import he_torrance  # noqa: E402
-from brdfguide.models._series import by_terms  # noqa: E402
-from brdfguide.models._series_cells import ln_series  # noqa: E402
+from brdfguide import models
+from brdfguide.models import he_torrance
+from brdfguide.models._series import by_terms
+from brdfguide.models._series_cells import ln_series
+from brdfguide.physics.geometry import Geometry
 
 SAMPLES = 100_000
-SURFACES = {"smooth metal 0.05, 2 um": (0.05, 2.0), "rough metal 0.28, 1.77 um": (0.28, 1.77), "rough 2, 10 um": (2.0, 10.0), "polished 0.005, 3 um": (0.005, 3.0)}
+SURFACES = {
+    "smooth metal 0.05, 2 um": (0.05, 2.0),
+    "rough metal 0.28, 1.77 um": (0.28, 1.77),
+    "rough 2, 10 um": (2.0, 10.0),
+    "polished 0.005, 3 um": (0.005, 3.0),
+}
 METAL = {"n": 0.958, "k": 6.69, "scale": 1.0}
 
 
@@ -35,40 +41,53 @@ def forty_terms(g, y):
     return total
 
 
-def least(laws, seconds):
+def least(evaluators, seconds):
     """ns per sample of each law; they take turns."""
-    best = dict.fromkeys(laws, np.inf)
-    for law in laws.values():
-        law()
+    best = dict.fromkeys(evaluators, np.inf)
+    for evaluator in evaluators.values():
+        evaluator()
     end = time.perf_counter() + seconds
     while time.perf_counter() < end:
-        for name, law in laws.items():
+        for name, evaluator in evaluators.items():
             start = time.process_time_ns()
-            law()
+            evaluator()
             best[name] = min(best[name], time.process_time_ns() - start)
     return {name: each / SAMPLES for name, each in best.items()}
 
 
+def costs(geom, sigma, tau, seconds: float) -> dict[str, float]:
+    """Least time of each way [ns per evaluation] for one surface."""
+    he, ggx = models.term("he-torrance"), models.term("ggx")
+    values = {"sigma": sigma, "slope": sigma / tau, **METAL}
+    _, g, y = he_torrance.in_blocks(he_torrance._parts, geom, *values.values())
+    cost = least(
+        {
+            "he": lambda: he(geom, **values),
+            "ggx": lambda: ggx(geom, alpha=2 * sigma / tau, **METAL),
+            "sum": lambda: ln_series(g, y),
+            "gradient": lambda: he.gradient(geom, ("sigma", "slope"), **values),
+            "forty": lambda: forty_terms(g, y),
+        },
+        seconds,
+    )
+    return cost | least({"terms": lambda: by_terms(g, y)}, seconds / 4)
+
+
 def main(seconds: float) -> None:
     random = np.random.default_rng(1)
-    geom = Geometry.from_degrees(random.uniform(1, 87, SAMPLES), 0, random.uniform(1, 87, SAMPLES), random.uniform(0, 360, SAMPLES))
-    he, ggx = models.term("he-torrance"), models.term("ggx")
-    print(f"{'surface':26}  {'he':>6}  {'+ d/dsigma, d/dslope':>20}  {'its sum':>8}  {'ggx':>6}  {'he/ggx':>6}  {'40 terms':>8}  {'by terms':>8}   ns per evaluation")
+    geom = Geometry.from_degrees(
+        random.uniform(1, 87, SAMPLES), 0, random.uniform(1, 87, SAMPLES), random.uniform(0, 360, SAMPLES)
+    )
+    print(
+        f"{'surface':26}  {'he':>6}  {'+ d/dsigma, d/dslope':>20}  {'its sum':>8}  {'ggx':>6}  {'he/ggx':>6}  "
+        f"{'40 terms':>8}  {'by terms':>8}   ns per evaluation"
+    )
     for name, (sigma, tau) in SURFACES.items():
-        values = {"sigma": sigma, "slope": sigma / tau, **METAL}
-        _, g, y = he_torrance.in_blocks(he_torrance._parts, geom, *values.values())
-        cost = least(
-            {
-                "he": lambda: he(geom, **values),
-                "ggx": lambda: ggx(geom, alpha=2 * sigma / tau, **METAL),
-                "sum": lambda: ln_series(g, y),
-                "gradient": lambda: he.gradient(geom, ("sigma", "slope"), **values),
-                "forty": lambda: forty_terms(g, y),
-            },
-            seconds,
+        cost = costs(geom, sigma, tau, seconds)
+        print(
+            f"{name:26}  {cost['he']:6.0f}  {cost['gradient']:20.0f}  {cost['sum']:8.0f}  {cost['ggx']:6.0f}  "
+            f"{cost['he'] / cost['ggx']:6.1f}  {cost['forty']:8.0f}  {cost['terms']:8.0f}"
         )
-        cost["terms"] = least({"terms": lambda: by_terms(g, y)}, seconds / 4)["terms"]
-        print(f"{name:26}  {cost['he']:6.0f}  {cost['gradient']:20.0f}  {cost['sum']:8.0f}  {cost['ggx']:6.0f}  {cost['he'] / cost['ggx']:6.1f}  {cost['forty']:8.0f}  {cost['terms']:8.0f}")
 
 
 if __name__ == "__main__":

@@ -1,27 +1,30 @@
 """How often `inspect` accuses a clean file, and how often it notices a lie and undoes it.
 
-    python benchmarks/lies.py [draws]
+python benchmarks/lies.py [draws]
 """
 
 import os
 import sys
 import tempfile
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-import numpy as np  # noqa: E402
+import numpy as np
 
-from brdfguide import examine, formats, hemisphere, models  # noqa: E402
-from brdfguide.errors import BrdfguideError  # noqa: E402
-from brdfguide.geometry import Geometry, rows  # noqa: E402
-from brdfguide.misfit import Layout  # noqa: E402
-from brdfguide.candidates import as_metal  # noqa: E402
-from tests import synthetic  # noqa: E402
-from tests.surfaces import table  # noqa: E402
+from brdfguide import models
+from brdfguide.data import examine, formats
+from brdfguide.errors import BrdfguideError
+from brdfguide.fitting.layout import Layout
+from brdfguide.models.candidates import as_metal
+from brdfguide.physics import hemisphere
+from brdfguide.physics.geometry import Geometry, rows
+from tests import synthetic
+from tests.surfaces import table
 
 LAWS = ("lambertian+ggx", "oren-nayar+ggx", "lambertian+beckmann", "lambertian+cook-torrance", "lambertian+he-torrance")
 METALS = ("ggx", "beckmann")
@@ -37,7 +40,7 @@ def dome() -> Geometry:
 PLACES = {"hemisphere, 595 directions": dome(), "in plane, 6 scans of 4 deg": synthetic.scan()}
 
 
-def drawn(seed: int, geom: Geometry):
+def sampled_surface(seed: int, geom: Geometry):
     """A random surface that keeps energy, with 0.3 to 3 % noise: values (samples,)."""
     random = np.random.default_rng([seed, 55])
     while True:
@@ -45,7 +48,7 @@ def drawn(seed: int, geom: Geometry):
         model = as_metal(models.get(name)) if name in METALS else models.get(name)
         values = synthetic.random_values(Layout(model, 1), random)
         values |= {key: random.uniform(0.02, 0.85) for key in values if key.endswith("albedo")}
-        if np.max(hemisphere.dhr(model, [10.0, 45.0, 75.0], values)) <= 1:
+        if np.max(hemisphere.dhr(partial(model, values=values), [10.0, 45.0, 75.0])) <= 1:
             return synthetic.surface(model, geom, values, noise=random.uniform(0.003, 0.03), seed=seed).brdf[:, 0]
 
 
@@ -54,7 +57,9 @@ def lies(geom: Geometry, f):
     theta_i, theta_r, phi = (a[:, 0] for a in (geom.theta_i_deg, geom.theta_r_deg, np.remainder(geom.phi_deg, 360)))
     signed, cos_i, cos_r = geom.signed_theta_r_deg[:, 0], geom.cos_i[:, 0], geom.cos_r[:, 0]
     plane = bool(np.all(geom.off_plane_deg < 0.1))
-    angles = {"theta_i": theta_i, "theta_r": signed} if plane else {"theta_i": theta_i, "theta_r": theta_r, "phi_r": phi}
+    angles = (
+        {"theta_i": theta_i, "theta_r": signed} if plane else {"theta_i": theta_i, "theta_r": theta_r, "phi_r": phi}
+    )
     turned = {**angles, "theta_r": -signed} if plane else {**angles, "phi_r": phi - 180}
     zero = 0 * theta_i
     named = {"phi_i": theta_i, "theta_i": zero, "phi_o": theta_r, "theta_o": phi}
@@ -85,26 +90,37 @@ def tried(columns, values, truth, geom):
         try:
             after = examine.corrected(measurement)
         except BrdfguideError:
-            return {each.code for each in (*measurement.findings, *examine.examine(measurement))}, measurement.findings, False
+            return (
+                {each.code for each in (*measurement.findings, *examine.examine(measurement))},
+                measurement.findings,
+                False,
+            )
     found = examine.examine(after)
     usable = after.usable[:, 0]
-    same = np.allclose(after.brdf[usable, 0], truth[kept][usable], rtol=1e-5) and np.allclose(after.geom.dot_xy, geom.dot_xy[kept], atol=1e-5)
+    same = np.allclose(after.brdf[usable, 0], truth[kept][usable], rtol=1e-5) and np.allclose(
+        after.geom.dot_xy, geom.dot_xy[kept], atol=1e-5
+    )
     return {each.code for each in (*after.findings, *found)}, (*after.findings, *found), same
 
 
-def main(draws: int) -> None:
+def main(samples: int) -> None:
     for place, geom in PLACES.items():
         accused, noticed, undone, counted = Counter(), Counter(), Counter(), Counter()
-        for seed in range(draws):
-            truth = drawn(seed, geom)
+        for seed in range(samples):
+            truth = sampled_surface(seed, geom)
             for name, (columns, values, wanted) in lies(geom, truth).items():
                 codes, findings, same = tried(columns, values, truth, geom)
                 counted[name] += 1
                 noticed[name] += bool(codes & wanted)
                 undone[name] += same
                 if not wanted:
-                    accused.update({each.code for each in findings if each.severity != "note" and each.code not in GAPS})
-        print(f"{place}: {draws} clean files, {draws - undone['the truth']} changed; doubts raised: {dict(accused) or 'none'}")
+                    accused.update(
+                        {each.code for each in findings if each.severity != "note" and each.code not in GAPS}
+                    )
+        print(
+            f"{place}: {samples} clean files, {samples - undone['the truth']} changed; doubts raised: "
+            f"{dict(accused) or 'none'}"
+        )
         for name in counted:
             if name != "the truth":
                 print(f"  {name:26} noticed {noticed[name]:4}   right afterwards {undone[name]:4}")

@@ -7,15 +7,24 @@ vectors and cosines as well (second ratio). Least thread CPU time of interleaved
 """
 
 import sys
+from functools import partial
 from time import thread_time_ns
 
+import naive
 import numpy as np
 
-import naive
 from brdfguide import models
-from brdfguide.geometry import Geometry, rows
+from brdfguide.physics.geometry import Geometry, rows
 
 REPEATS, BLOCK = 9, 16384
+
+
+def in_blocks(term, blocks, values):
+    return [term(block, **values) for block in blocks]
+
+
+def at_angles(model, angles, values):
+    return model(naive.directions(*angles), **values)
 
 
 def main(samples: int = 100_000) -> None:
@@ -28,25 +37,32 @@ def main(samples: int = 100_000) -> None:
     least = {}
     for _ in range(REPEATS):
         for name in names:
-            term, law = models.term(name), naive.LAWS[name]
+            term, model = models.term(name), naive.LAWS[name]
             values = term.defaults()
             ways = {
-                "ours": lambda: [term(block, **values) for block in blocks],  # noqa: B023
-                "angles": lambda: law(naive.directions(*angles), **values),  # noqa: B023
-                "given": lambda: law(given, **values),  # noqa: B023
+                "ours": partial(in_blocks, term, blocks, values),
+                "angles": partial(at_angles, model, angles, values),
+                "given": partial(model, given, **values),
             }
+            results = {}
             for way, run in ways.items():
                 began = thread_time_ns()
-                result = run()
+                results[way] = run()
                 least[name, way] = min(least.get((name, way), np.inf), (thread_time_ns() - began) / samples)
-                ours = np.concatenate(result)[:, 0] if way == "ours" else ours  # noqa: F821
-            seen = ours > 1e-12 * ours.max()
-            error = np.abs(result / np.where(seen, ours, 1) - 1)[seen].max()
+            ours = np.concatenate(results["ours"])[:, 0]
+            bright = ours > 1e-12 * ours.max()
+            error = np.abs(results["given"] / np.where(bright, ours, 1) - 1)[bright].max()
             assert error < 1e-6, (name, error)
-    print(f"{'law':15s} {'ours ns':>8s} {'from angles':>12s} {'ratio':>6s} {'given':>8s} {'ratio':>6s}   ({samples} samples)")
+    print(
+        f"{'law':15s} {'ours ns':>8s} {'from angles':>12s} {'ratio':>6s} {'given':>8s} {'ratio':>6s}   "
+        f"({samples} samples)"
+    )
     for name in names:
         ours, from_angles, from_given = (least[name, way] for way in ("ours", "angles", "given"))
-        print(f"{name:15s} {ours:8.1f} {from_angles:12.1f} {from_angles / ours:6.1f} {from_given:8.1f} {from_given / ours:6.1f}")
+        print(
+            f"{name:15s} {ours:8.1f} {from_angles:12.1f} {from_angles / ours:6.1f} {from_given:8.1f} "
+            f"{from_given / ours:6.1f}"
+        )
 
 
 if __name__ == "__main__":

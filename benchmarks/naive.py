@@ -93,7 +93,9 @@ def beckmann(d, alpha, n, k, scale):
 
 
 def ggx(d, alpha, n, k, scale):
-    hidden = lambda theta: (np.sqrt(1 + alpha**2 * np.tan(theta) ** 2) - 1) / 2  # noqa: E731
+    def hidden(theta):
+        return (np.sqrt(1 + alpha**2 * np.tan(theta) ** 2) - 1) / 2
+
     tan2 = np.tan(np.arccos(d["cos_h"])) ** 2
     distribution = alpha**2 / (pi * d["cos_h"] ** 4 * (alpha**2 + tan2) ** 2)
     g = 1 / (1 + hidden(d["theta_i"]) + hidden(d["theta_r"]))
@@ -101,7 +103,8 @@ def ggx(d, alpha, n, k, scale):
 
 
 def oren_nayar(d, albedo, spread):
-    a, b, s2, c = np.maximum(d["theta_i"], d["theta_r"]), np.minimum(d["theta_i"], d["theta_r"]), spread**2, np.cos(d["phi"])
+    a, b = np.maximum(d["theta_i"], d["theta_r"]), np.minimum(d["theta_i"], d["theta_r"])
+    s2, c = spread**2, np.cos(d["phi"])
     c1 = 1 - 0.5 * s2 / (s2 + 0.33)
     c2 = 0.45 * s2 / (s2 + 0.09) * (np.sin(a) - np.where(c >= 0, 0, (2 * b / pi) ** 3))
     c3 = 0.125 * s2 / (s2 + 0.09) * (4 * a * b / pi**2) ** 2
@@ -114,12 +117,18 @@ def eon(d, albedo, roughness):
     s = d["i"][0] * d["r"][0] + d["i"][1] * d["r"][1]
     t = np.where(s > 0, np.maximum(d["cos_i"], d["cos_r"]), 1.0)
     a = 1 / (1 + c1 * r)
-    def kept(theta):  # noqa: E306
-        g = np.sin(theta) * (theta - np.sin(theta) * np.cos(theta)) + 2 / 3 * (np.tan(theta) * (1 - np.sin(theta) ** 3) - np.sin(theta))
+
+    def kept(theta):
+        g = np.sin(theta) * (theta - np.sin(theta) * np.cos(theta)) + 2 / 3 * (
+            np.tan(theta) * (1 - np.sin(theta) ** 3) - np.sin(theta)
+        )
         return a * (1 + r * g / pi)
+
     mean = a * (1 + c2 * r)
     again = albedo**2 * mean / (1 - albedo * (1 - mean))
-    return albedo / pi * a * (1 + r * s / t) + again / pi * (1 - kept(d["theta_i"])) * (1 - kept(d["theta_r"])) / (1 - mean)
+    return albedo / pi * a * (1 + r * s / t) + again / pi * (1 - kept(d["theta_i"])) * (1 - kept(d["theta_r"])) / (
+        1 - mean
+    )
 
 
 def he_torrance(d, sigma, slope, n, k, scale, wavelength=0.55, terms=150):
@@ -134,11 +143,19 @@ def he_torrance(d, sigma, slope, n, k, scale, wavelength=0.55, terms=150):
     g = (2 * pi * rough / wavelength * z) ** 2
     q = (2 * pi / wavelength) ** 2 * (x**2 + y**2) * tau**2 / 4
     total = sum(g**m * np.exp(-g - q / m) / (factorial(m) * m) for m in range(1, terms + 1))
-    def seen(nu):  # noqa: E306
+
+    def visible_share(nu):
         h = erfc(-nu) / 2
         return h / (h + np.exp(-(nu**2)) / (2 * np.sqrt(pi) * nu))
-    factor = ((x**2 + y**2 + z**2) / z) ** 2 * seen(nu_i) * seen(nu_r) / (d["cos_i"] * d["cos_r"] * pi)
+
+    factor = (
+        ((x**2 + y**2 + z**2) / z) ** 2 * visible_share(nu_i) * visible_share(nu_r) / (d["cos_i"] * d["cos_r"] * pi)
+    )
     return scale * fresnel(d["cos_d"], n, k) * factor * pi**2 * tau**2 / (4 * wavelength**2) * total
 
 
-LAWS = {name.replace("_", "-"): law for name, law in list(globals().items()) if callable(law) and name not in ("directions", "fresnel", "beckmann_d", "factorial")}
+LAWS = {
+    name.replace("_", "-"): model
+    for name, model in list(globals().items())
+    if callable(model) and name not in ("directions", "fresnel", "beckmann_d", "factorial")
+}

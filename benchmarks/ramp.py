@@ -19,7 +19,7 @@ def ramp(x):
 def fit():
     xs = [FAR * (1 - cos(pi * (2 * i + 1) / (2 * NODES))) / 2 for i in range(NODES)]
     right = [ramp(x) for x in xs]
-    weight = [exp(-x * x) / (2 * x + exp(-x * x) * y) for x, y in zip(xs, right)]
+    weight = [exp(-x * x) / (2 * x + exp(-x * x) * y) for x, y in zip(xs, right, strict=True)]
     below, focus, best = [mpf(1)] * NODES, [mpf(1)] * NODES, None
     for _ in range(ROUNDS):
         a, b = matrix(NODES, ABOVE + 1 + BELOW), matrix(NODES, 1)
@@ -33,11 +33,13 @@ def fit():
         found = list(lu_solve(a.T * a, a.T * b))
         p, q = found[: ABOVE + 1], [mpf(1), *found[ABOVE + 1 :]]
         below = [sum(c * x**j for j, c in enumerate(q)) for x in xs]
-        errors = [abs(sum(c * x**j for j, c in enumerate(p)) / below[i] - right[i]) * weight[i] for i, x in enumerate(xs)]
+        errors = [
+            abs(sum(c * x**j for j, c in enumerate(p)) / below[i] - right[i]) * weight[i] for i, x in enumerate(xs)
+        ]
         if best is None or max(errors) < best[0]:
             best = max(errors), p, q
         mean = sum(errors) / NODES
-        focus = [f * sqrt(sqrt((e + mean / 20) / mean)) for f, e in zip(focus, errors)]
+        focus = [f * sqrt(sqrt((e + mean / 20) / mean)) for f, e in zip(focus, errors, strict=True)]
     return best
 
 

@@ -7,21 +7,28 @@ from pathlib import Path
 from .errors import choices
 
 HERE = Path(__file__).parent
+# What lives in a registry's folder and is no member: its contract, and what is built on all members alike.
+NOT_MEMBERS = {
+    "models": ("model", "coat", "facts", "surface", "looks", "visible_change", "candidates", "extensions", "cost"),
+    "data.formats": ("format",),
+    "advice.guidelines": ("guideline",),
+    "exporters": ("exporter", "cards", "conversions", "live"),
+}
 
 
 def names(folder: str) -> list[str]:
-    """Members of `folder`, as typed by users, without importing any of them."""
+    """Members of `folder`, such as "data.formats", as typed by users, without importing any of them."""
     return list(_members(folder))
 
 
 @lru_cache
 def _members(folder: str) -> tuple[str, ...]:
-    files = (HERE / folder).glob("[!_]*.py")
-    return tuple(sorted(file.stem.replace("_", "-") for file in files))
+    files = HERE.joinpath(*folder.split(".")).glob("[!_]*.py")
+    return tuple(sorted(file.stem.replace("_", "-") for file in files if file.stem not in NOT_MEMBERS.get(folder, ())))
 
 
 def load(folder: str, name: str):
     """The module of member `name`. Raises InputError with the nearest names."""
     if name not in _members(folder):
-        raise choices(folder.removesuffix("s"), name, names(folder))
+        raise choices(folder.rpartition(".")[2].removesuffix("s"), name, names(folder))
     return import_module(f".{folder}.{name.replace('-', '_')}", __package__)

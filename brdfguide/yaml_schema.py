@@ -9,16 +9,19 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
-from pathlib import Path
 
 import yaml
 
-from .errors import InputError, no_such_file
+from . import opening
+from .errors import InputError, nearest_words
+from .printable import short
 
 MOST_BYTES = 65536  # ours: the largest sensible description is a few kilobytes
 MOST_DEPTH = 12
 NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
+
+HEX = re.compile(r"#[0-9a-fA-F]{6}")
+SYMBOL = 3  # letters of a quantity's symbol, which a typing error makes another's
 
 
 @dataclass(frozen=True)
@@ -26,12 +29,12 @@ class Field:
     """One key of a file: what it may hold, in which unit and between which bounds."""
 
     name: str
-    kind: str  # number, numbers, word, text, texts, flag, group, groups
+    kind: str  # number, numbers, colour (#rrggbb or numbers), word, text, texts, flag, group, groups
     unit: str = ""
     low: float | None = None  # bounds are closed
     high: float | None = None
     above: float | None = None  # an open lower bound
-    choices: tuple[str, ...] = ()  # of a word; of a number: words that may stand in its place
+    choices: tuple[str, ...] = ()  # of a word; of number, numbers or a group: words that may stand in its place
     counts: tuple[int, ...] = ()  # how many numbers; empty: any
     fields: tuple["Field", ...] = ()  # of a group, and of each group in groups
     required: bool = False
@@ -40,7 +43,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Document:
-    """A file as read: values keyed by field name (groups nest), places keyed by dotted path (`gloss.60`, `lights.0.size`)."""
+    """A file as read: values by field name (groups nest), places by dotted path (`gloss.60`, `lights.0.size`)."""
 
     name: str
     values: Mapping
@@ -59,11 +62,20 @@ class Document:
 
 
 def read(path, fields: tuple[Field, ...], rules: Iterable[Callable] = ()) -> Document:
-    """The file at `path` (`-`: standard input). Each of `rules` takes the Document and yields (path, sentence) for
-    what no field can say alone. Raises InputError with all that is wrong, a line each.
-    """
+    """The file at `path` (`-`: standard input). Each of `rules` takes the Document and yields (path, sentence) for what
+    no field can say alone. Raises InputError with all that is wrong, a line each."""
     name = "<stdin>" if str(path) == "-" else str(path)
     return parse(_text(path, name), fields, rules, name)
+
+
+def written(values: Mapping) -> str:
+    """Plain values as a text that `parse` reads. Raises InputError for what such a file cannot hold."""
+    try:
+        return yaml.safe_dump(dict(values), allow_unicode=True, sort_keys=False)
+    except yaml.representer.RepresenterError as error:
+        raise InputError(
+            f"wanted numbers, words, lists and groups of them; found {short(str(error.args[-1]))}"
+        ) from None
 
 
 def parse(text: str, fields: tuple[Field, ...], rules: Iterable[Callable] = (), name: str = "<text>") -> Document:
@@ -75,34 +87,39 @@ def parse(text: str, fields: tuple[Field, ...], rules: Iterable[Callable] = (), 
         root = yaml.compose(text, Loader=_Loader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise InputError(f"{name}:{mark.line + 1}:{mark.column + 1}: not valid YAML: {error.problem or error.context}") from None
+        raise InputError(
+            f"{name}:{mark.line + 1}:{mark.column + 1}: not valid YAML: {error.problem or error.context}"
+        ) from None
     except yaml.reader.ReaderError as error:
-        raise InputError(f"{name}:{text.count(chr(10), 0, error.position) + 1}:1: not text: contains the character {error.character:#x}") from None
+        raise InputError(
+            f"{name}:{text.count(chr(10), 0, error.position) + 1}:1: not text: contains the character "
+            f"{error.character:#x}"
+        ) from None
     if root is None:
         raise InputError(f"{name}:1:1: empty; a description needs at least one of: {', '.join(f.name for f in fields)}")
     values = walk.group(root, fields, "")
     document = Document(name, values, walk.places)
     problems = list(walk.problems)
     for rule in rules:  # what follows from an error that is already named is left unsaid
-        problems += [(document.place(where), sentence) for where, sentence in rule(document) if where not in walk.broken]
+        problems += [
+            (document.place(where), sentence) for where, sentence in rule(document) if where not in walk.broken
+        ]
     if problems:
-        lines = [f"{name}:{line}:{column}: {sentence}" for (line, column), sentence in sorted(problems, key=lambda each: each[0])]
-        raise InputError("\n".join(dict.fromkeys(lines)))
+        lines = [
+            f"{name}:{line}:{column}: {sentence}"
+            for (line, column), sentence in sorted(problems, key=lambda each: each[0])
+        ]
+        raise InputError(*dict.fromkeys(lines))
     return document
 
 
 def _text(path, name: str) -> str:
     """The file's text; never more than a little above the limit is read."""
-    try:
-        if name == "<stdin>":
-            raw = sys.stdin.buffer.read(MOST_BYTES + 1)
-        else:
-            with Path(path).open("rb") as stream:
-                raw = stream.read(MOST_BYTES + 1)
-    except FileNotFoundError:
-        raise no_such_file(path, name) from None
-    except OSError as error:
-        raise InputError(f"{name}: cannot read: {error.strerror}") from None
+    if name == "<stdin>":
+        raw = sys.stdin.buffer.read(MOST_BYTES + 1)
+    else:
+        with opening.open_for_reading(path, name) as stream:
+            raw = stream.read(MOST_BYTES + 1)
     if len(raw) > MOST_BYTES:
         raise InputError(f"{name}: larger than {MOST_BYTES // 1024} kB, which is no description of this kind")
     try:
@@ -121,11 +138,17 @@ class _Loader(yaml.SafeLoader):
     def compose_node(self, parent, index):
         event = self.peek_event()
         if isinstance(event, yaml.AliasEvent):
-            raise yaml.MarkedYAMLError(problem=f"aliases (*{event.anchor}) are not used here", problem_mark=event.start_mark)
+            raise yaml.MarkedYAMLError(
+                problem=f"aliases (*{short(event.anchor)}) are not used here", problem_mark=event.start_mark
+            )
         if event.anchor is not None:
-            raise yaml.MarkedYAMLError(problem=f"anchors (&{event.anchor}) are not used here", problem_mark=event.start_mark)
+            raise yaml.MarkedYAMLError(
+                problem=f"anchors (&{short(event.anchor)}) are not used here", problem_mark=event.start_mark
+            )
         if getattr(event, "tag", None) is not None:
-            raise yaml.MarkedYAMLError(problem=f"tags ({event.tag}) are not used here", problem_mark=event.start_mark)
+            raise yaml.MarkedYAMLError(
+                problem=f"tags ({short(event.tag)}) are not used here", problem_mark=event.start_mark
+            )
         if self.depth >= MOST_DEPTH:
             raise yaml.MarkedYAMLError(problem=f"nested more than {MOST_DEPTH} deep", problem_mark=event.start_mark)
         self.depth += 1
@@ -147,18 +170,21 @@ class _Walk:
         """The values of a mapping."""
         what = f"'{path}'" if path else "the file"
         if not isinstance(node, yaml.MappingNode):
-            self.wrong(node, f"{what} is {_shown(node)}; wanted lines of `key: value` with {', '.join(f.name for f in fields)}")
+            self.wrong(
+                node, f"{what} is {_shown(node)}; wanted lines of `key: value` with {', '.join(f.name for f in fields)}"
+            )
             return {}
-        known, values, first, sound = {f.name: f for f in fields}, {}, {}, len(self.problems)
+        known, values, sound = {f.name: f for f in fields}, {}, len(self.problems)
+        first: dict[str, tuple[int, int]] = {}
         for key_node, value_node in node.value:
             key = _key(key_node)
             if key in first:
                 line, column = first[key]
-                self.wrong(key_node, f"'{key}' is given twice; first in line {line}, column {column}")
+                self.wrong(key_node, f"'{short(key)}' is given twice; first in line {line}, column {column}")
                 continue
             first[key] = key_node.start_mark.line + 1, key_node.start_mark.column + 1
             if key not in known:
-                self.wrong(key_node, f"no key called '{key}'{_nearest(key, known, path)}")
+                self.wrong(key_node, f"no key called '{short(key)}'{_nearest(key, known, path)}")
                 continue
             inner = f"{path}.{key}" if path else key
             self.places[inner] = value_node.start_mark.line + 1, value_node.start_mark.column + 1
@@ -178,21 +204,33 @@ class _Walk:
     def value(self, node, wanted: Field, path: str):
         """One value, or None with the problem noted."""
         if isinstance(node, yaml.ScalarNode) and node.style is None and node.value in ("", "~", "null", "Null", "NULL"):
-            return self.wrong(node, f"'{path}' has no value; give one, or remove the line")
+            hint = "; a colour such as #c83232 stands in quotes" if wanted.kind == "colour" else ""
+            return self.wrong(node, f"'{path}' has no value; give one, or remove the line{hint}")
         if wanted.kind == "group":
+            if wanted.choices and isinstance(node, yaml.ScalarNode):
+                return self.word(node, wanted, path)
             return self.group(node, wanted.fields, path)
         if wanted.kind == "groups":
             return self.several(node, path, lambda each, inner: self.group(each, wanted.fields, inner))
-        if wanted.kind == "numbers" and isinstance(node, yaml.SequenceNode):
+        if wanted.kind in ("numbers", "colour") and isinstance(node, yaml.SequenceNode):
             if wanted.counts and len(node.value) not in wanted.counts:
-                return self.wrong(node, f"'{path}' has {len(node.value)} numbers; wanted {' or '.join(map(str, wanted.counts))}")
+                return self.wrong(
+                    node, f"'{path}' has {len(node.value)} numbers; wanted {' or '.join(map(str, wanted.counts))}"
+                )
             return self.several(node, path, lambda each, inner: self.scalar(each, wanted, inner))
         if wanted.kind == "texts" and isinstance(node, yaml.SequenceNode):
             return self.several(node, path, lambda each, inner: self.scalar(each, wanted, inner))
-        if wanted.kind == "numbers" and wanted.counts and 1 not in wanted.counts:
-            return self.wrong(node, f"'{path}' is {_shown(node)}; wanted a list of {' or '.join(map(str, wanted.counts))} numbers")
+        listed = wanted.kind == "numbers" and wanted.counts and 1 not in wanted.counts
+        if wanted.choices and listed and isinstance(node, yaml.ScalarNode):
+            return self.word(node, wanted, path)
+        if listed:
+            return self.wrong(
+                node, f"'{path}' is {_shown(node)}; wanted a list of {' or '.join(map(str, wanted.counts))} numbers"
+            )
         single = self.scalar(node, wanted, path)
-        return [single] if wanted.kind in ("numbers", "texts") and single is not None else single
+        if wanted.kind in ("numbers", "colour") and isinstance(single, str):
+            return single
+        return [single] if wanted.kind in ("numbers", "colour", "texts") and single is not None else single
 
     def several(self, node, path: str, one):
         """A list, each item by `one`."""
@@ -215,19 +253,30 @@ class _Walk:
         if wanted.kind == "flag":
             if plain and text.lower() in ("true", "false"):
                 return text.lower() == "true"
-            return self.wrong(node, f"'{path}' is '{text}'; wanted true or false")
-        word = _word(text, wanted.choices)
-        if word is not None:
-            return word
+            return self.wrong(node, f"'{path}' is '{short(text)}'; wanted true or false")
         if wanted.kind == "word":
-            near = get_close_matches(text.lower(), wanted.choices, n=1, cutoff=0.5)
-            hint = f"did you mean '{near[0]}'? " if near else ""
-            return self.wrong(node, f"'{path}' is '{text}'; {hint}it is one of: {', '.join(wanted.choices)}")
-        return self.number(node, text, plain, wanted, path)
+            return self.word(node, wanted, path)
+        if wanted.kind == "colour" and HEX.fullmatch(text):
+            return text
+        word = _word(text, wanted.choices)
+        return self.number(node, text, plain, wanted, path) if word is None else word
+
+    def word(self, node, wanted: Field, path: str):
+        """One of the choices, of a word or in place of a group."""
+        text = node.value.strip()
+        found = _word(text, wanted.choices)
+        if found is not None:
+            return found
+        near = nearest_words(text.lower(), wanted.choices, 1, 0.5)
+        hint = f"did you mean '{near[0]}'? " if near else ""
+        keys = f", or lines of `key: value` with {', '.join(f.name for f in wanted.fields)}" if wanted.fields else ""
+        return self.wrong(node, f"'{path}' is '{short(text)}'; {hint}it is one of: {', '.join(wanted.choices)}{keys}")
 
     def number(self, node, text: str, plain: bool, wanted: Field, path: str):
         if not (plain and NUMBER.fullmatch(text)):
-            return self.wrong(node, f"'{path}' is '{text}'; wanted {_wanted(wanted)}{_hint(text, plain, wanted)}")
+            return self.wrong(
+                node, f"'{path}' is '{short(text)}'; wanted {_wanted(wanted)}{_hint(text, plain, wanted)}"
+            )
         number = float(text)
         outside = (
             abs(number) == float("inf")
@@ -236,7 +285,7 @@ class _Walk:
             or (wanted.above is not None and number <= wanted.above)
         )
         if outside:
-            return self.wrong(node, f"'{path}' is {text}; wanted {_wanted(wanted)}")
+            return self.wrong(node, f"'{path}' is {short(text)}; wanted {_wanted(wanted)}")
         return number
 
 
@@ -246,21 +295,34 @@ def _key(node) -> str:
 
 def _word(text: str, choices: tuple[str, ...]) -> str | None:
     """The choice that `text` names; case, hyphens, underscores and the American colour do not matter."""
-    plain = lambda word: re.sub(r"[\s_-]+", " ", word.lower()).replace("color", "colour").strip()  # noqa: E731
+
+    def plain(word):
+        return re.sub(r"[\s_-]+", " ", word.lower()).replace("color", "colour").strip()
+
     return next((choice for choice in choices if plain(choice) == plain(text)), None)
 
 
 def _nearest(key: str, known, path: str) -> str:
     """The nearest known keys; with none near, all of them."""
-    near = " or ".join(f"'{each}'" for each in get_close_matches(key.lower(), known, n=2, cutoff=0.55))
+    alike = [each for each in nearest_words(key.lower(), known, 2, 0.55) if _one_quantity(key, each)]
+    near = " or ".join(f"'{each}'" for each in alike)
     inside = f" in '{path}'" if path else ""
     return f"{inside}; did you mean {near}?" if near else f"{inside}; there are: {', '.join(known)}"
+
+
+def _one_quantity(typed: str, known: str) -> bool:
+    """Whether a key is spelt so much like another that it means the same: what stands before the unit counts, and short
+    symbols such as Ra and Rq are alike only where they are the same."""
+    stems = [re.sub(r"_(um|nm|mm|deg|m)$", "", word.lower()) for word in (typed, known)]
+    if min(map(len, stems)) <= SYMBOL:
+        return stems[0] == stems[1]
+    return bool(nearest_words(stems[0], stems[1:], 1, 0.55))
 
 
 def _shown(node) -> str:
     if isinstance(node, yaml.MappingNode):
         return "a mapping"
-    return "a list" if isinstance(node, yaml.SequenceNode) else f"'{node.value}'"
+    return "a list" if isinstance(node, yaml.SequenceNode) else f"'{short(node.value)}'"
 
 
 def _wanted(wanted: Field) -> str:
@@ -281,6 +343,8 @@ def _wanted(wanted: Field) -> str:
     elif wanted.high is not None:
         bounds = f" of at most {wanted.high:g}"
     unit = f" [{wanted.unit}]" if wanted.unit else ""
+    if wanted.kind == "colour":
+        return f"'#rrggbb' in quotes, or linear numbers{bounds}"
     words = "".join(f" or '{choice}'" for choice in wanted.choices)
     return f"a number{bounds}{unit}{words}"
 

@@ -17,6 +17,14 @@ def numpy_raises():
 
 
 @pytest.fixture(scope="session")
+def package(tmp_path_factory):
+    """The program as it is published: sdist, wheel, and an environment with nothing but the wheel."""
+    from .installed import installed
+
+    return installed(tmp_path_factory.mktemp("package"))
+
+
+@pytest.fixture(scope="session")
 def data() -> Path:
     """The folder of real measurements; tests that need it are skipped where it is absent."""
     if not DATA.is_dir():

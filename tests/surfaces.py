@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from brdfguide.geometry import Geometry, rows
+from brdfguide.physics.geometry import Geometry, rows
 
 # name: albedo, width of the lobe, reflectance at normal incidence
 SURFACES = {
@@ -20,16 +20,25 @@ def value(geom: Geometry, albedo: float, width: float, f0: float) -> np.ndarray:
     """A facet lobe with Schlick's Fresnel factor over a diffuse body [1/sr]; reciprocal."""
     fresnel = f0 + (1 - f0) * (1 - geom.cos_d) ** 5
     facets = width**2 / (np.pi * (geom.tan2_h + width**2) ** 2) * (1 + geom.tan2_h) ** 2
-    mask = lambda cos: 2 * cos / (cos + np.sqrt(width**2 + (1 - width**2) * cos**2))  # noqa: E731
+
+    def mask(cos):
+        return 2 * cos / (cos + np.sqrt(width**2 + (1 - width**2) * cos**2))
+
     lobe = fresnel * facets * mask(geom.cos_i) * mask(geom.cos_r) / (4 * geom.cos_i * geom.cos_r)
     return albedo / np.pi * (1 - f0) ** 2 + lobe
 
 
 def in_plane_run(name: str, seed: int, noise: float = 0.01):
     """theta_i, signed theta_r (positive: mirror side) [deg] and noisy values of a run in the plane of incidence."""
-    theta_i, theta_r = (a.ravel() for a in np.meshgrid(np.arange(15.0, 76.0, 15.0), np.arange(-80.0, 81.0, 5.0), indexing="ij"))
+    theta_i, theta_r = (
+        a.ravel() for a in np.meshgrid(np.arange(15.0, 76.0, 15.0), np.arange(-80.0, 81.0, 5.0), indexing="ij")
+    )
     geom = Geometry.from_degrees(theta_i, 0.0, np.abs(theta_r), np.where(theta_r < 0, 0.0, 180.0))
-    return theta_i, theta_r, value(geom, *SURFACES[name]) * np.exp(noise * np.random.default_rng(seed).standard_normal(len(theta_i)))
+    return (
+        theta_i,
+        theta_r,
+        value(geom, *SURFACES[name]) * np.exp(noise * np.random.default_rng(seed).standard_normal(len(theta_i))),
+    )
 
 
 def dome_run(name: str, seed: int, noise: float = 0.01):
@@ -37,7 +46,12 @@ def dome_run(name: str, seed: int, noise: float = 0.01):
     grid = np.meshgrid([0.0, 20.0, 40.0, 60.0, 75.0], np.r_[0.0:81.0:5.0], np.arange(0.0, 181.0, 30.0), indexing="ij")
     theta_i, theta_r, phi = (a.ravel() for a in grid)
     geom = Geometry.from_degrees(theta_i, 0.0, theta_r, phi)
-    return theta_i, theta_r, phi, value(geom, *SURFACES[name]) * np.exp(noise * np.random.default_rng(seed).standard_normal(len(theta_i)))
+    return (
+        theta_i,
+        theta_r,
+        phi,
+        value(geom, *SURFACES[name]) * np.exp(noise * np.random.default_rng(seed).standard_normal(len(theta_i))),
+    )
 
 
 def geometry(theta_i, theta_r, phi) -> Geometry:
@@ -46,5 +60,5 @@ def geometry(theta_i, theta_r, phi) -> Geometry:
 
 def table(header, *columns) -> str:
     """The columns as CSV."""
-    lines = [",".join(f"{cell:.8g}" for cell in line) for line in zip(*columns)]
+    lines = [",".join(f"{cell:.8g}" for cell in line) for line in zip(*columns, strict=True)]
     return "\n".join([",".join(header), *lines]) + "\n"

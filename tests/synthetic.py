@@ -2,9 +2,11 @@
 
 import numpy as np
 
-from brdfguide.geometry import Geometry, rows
-from brdfguide.measurement import Measurement
-from brdfguide.misfit import from_coordinate, to_coordinate
+from brdfguide.data.measurement import Measurement
+from brdfguide.fitting.layout import from_coordinate, to_coordinate
+from brdfguide.models.surface import Surface
+from brdfguide.physics.directions import FIELDS, Directions
+from brdfguide.physics.geometry import Geometry, rows
 
 WAVELENGTHS_UM = (0.45, 0.55, 0.65)
 
@@ -26,6 +28,12 @@ def hemisphere(count: int = 600, seed: int = 5, highest: float = 80.0) -> Geomet
     return rows(Geometry.from_degrees(theta_i, 0.0, theta_r, phi))
 
 
+def joined(parts) -> Geometry:
+    """The rows of several geometries, at the wavelengths of the first."""
+    fields = {name: np.concatenate([getattr(part, name) for part in parts]) for name in FIELDS}
+    return Geometry(Directions(**fields), parts[0].wavelength)
+
+
 def surface(model, geom: Geometry, values, *, noise: float = 0.0, seed: int = 0, channels: int = 1) -> Measurement:
     """What an instrument with a relative error of `noise` and seven decades of range reports of a surface."""
     wavelength = np.asarray(WAVELENGTHS_UM[:channels] if channels <= 3 else np.linspace(0.4, 0.7, channels))
@@ -35,6 +43,11 @@ def surface(model, geom: Geometry, values, *, noise: float = 0.0, seed: int = 0,
     noisy[truth < 1e-7 * truth.max()] = np.nan
     names = tuple(f"{1e3 * each:.0f} nm" for each in wavelength)
     return Measurement(geom, noisy, names, name="synthetic")
+
+
+def fitted(model, values, data: Measurement) -> Surface:
+    """The surface of these values in the channels of a measurement."""
+    return Surface(model, values, data.channels, data.geom.wavelength)
 
 
 def with_gaps(measurement: Measurement, seed: int) -> Measurement:
@@ -55,11 +68,15 @@ def random_values(layout, random, inner: float = 0.1) -> dict:
     """
     values = layout.model.defaults()
     for key, parameter in layout.parameters.items():
-        ends = (min(parameter.starts), max(parameter.starts)) if parameter.starts else (max(parameter.low, 0.02), min(parameter.high, 0.8))
+        ends = (
+            (min(parameter.starts), max(parameter.starts))
+            if parameter.starts
+            else (max(parameter.low, 0.02), min(parameter.high, 0.8))
+        )
         ends = (1.5, 10.0) if parameter.name == "k" else ends
         low, high = (float(to_coordinate(parameter, np.asarray(end))) for end in ends)
         low, high = low + inner * (high - low), high - inner * (high - low)
-        size = layout.channels if key in layout.own else None
+        size = layout.channels if key in layout.per_channel else None
         drawn = from_coordinate(parameter, random.uniform(low, high, size))
         values[key] = drawn if size else float(drawn)
     return values

@@ -10,22 +10,30 @@ import pytest
 
 from .conftest import ROOT
 
-SAMPLES = ROOT / "examples" / "samples"
-sys.path.insert(0, str(SAMPLES))
-import heightfield  # noqa: E402
-import instrument  # noqa: E402
-import kirchhoff  # noqa: E402
-import white_paper  # noqa: E402
+sys.path.insert(0, str(ROOT / "examples" / "samples"))
+import heightfield
+import instrument
+import kirchhoff
+import white_paper
 
+SAMPLES = ROOT / "examples" / "samples"
 TRUTHS = sorted((SAMPLES / "truth").glob("*.csv"))
-MADE = {"rough_aluminium.csv": ("rough_aluminium_a", "10,45,75"), "rough_plastic.csv": ("rough_plastic_a", "10,45,75"), "rough_plastic_held_out.csv": ("rough_plastic_a", "30,60,80"),
-        "white_paper.csv": ("white_paper_c", "10,45,75"), "smooth_steel.csv": ("smooth_steel_a", ""), "metallic_paint.csv": ("metallic_paint_a", "10,45,75")}  # fmt: skip
+MADE = {
+    "rough_aluminium.csv": ("rough_aluminium_a", "10,45,75"),
+    "rough_plastic.csv": ("rough_plastic_a", "10,45,75"),
+    "rough_plastic_held_out.csv": ("rough_plastic_a", "30,60,80"),
+    "white_paper.csv": ("white_paper_c", "10,45,75"),
+    "smooth_steel.csv": ("smooth_steel_a", ""),
+    "metallic_paint.csv": ("metallic_paint_a", "10,45,75"),
+}
 
 
 @pytest.mark.parametrize("name", MADE)
 def test_a_sample_is_what_the_instrument_makes_of_its_truth_with_seed_1(name):
     truth, angles = MADE[name]
-    words = [sys.executable, "examples/samples/instrument.py", f"examples/samples/truth/{truth}.csv", "--seed", "1"] + (["--theta-i", angles] if angles else [])
+    words = [sys.executable, "examples/samples/instrument.py", f"examples/samples/truth/{truth}.csv", "--seed", "1"] + (
+        ["--theta-i", angles] if angles else []
+    )
     made = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert made == (ROOT / "examples" / name).read_text()
 
@@ -70,8 +78,16 @@ def test_diffraction_integral_is_the_known_series_for_a_gaussian_correlation(g, 
     tau, step = 3.2, 0.1 / (4 * np.pi / 0.55)
     r = np.arange(0.5, 8 * tau / step) * step
     m = np.arange(1, 2000)
-    terms = np.exp(-g + m * np.log(g) - np.array([lgamma(k + 1) for k in m])) * np.pi * tau**2 / m * np.exp(-((v * tau) ** 2) / (4 * m))
-    assert kirchhoff._integral(r, step, lambda x: np.exp(-((x / tau) ** 2)), g, v) == pytest.approx(terms.sum(), rel=1e-4)
+    terms = (
+        np.exp(-g + m * np.log(g) - np.array([lgamma(k + 1) for k in m]))
+        * np.pi
+        * tau**2
+        / m
+        * np.exp(-((v * tau) ** 2) / (4 * m))
+    )
+    assert kirchhoff._integral(r, step, lambda x: np.exp(-((x / tau) ** 2)), g, v) == pytest.approx(
+        terms.sum(), rel=1e-4
+    )
 
 
 def test_h_function_obeys_its_integral():
@@ -82,12 +98,21 @@ def test_h_function_obeys_its_integral():
 
 
 def test_no_sample_is_importable_from_the_package():
-    code = "import sys, brdfguide, pkgutil; names = [m.name for m in pkgutil.walk_packages(brdfguide.__path__)]; sys.exit('heightfield' in names or 'kirchhoff' in names)"
+    code = (
+        "import sys, brdfguide, pkgutil; names = [m.name for m in pkgutil.walk_packages(brdfguide.__path__)]; "
+        "sys.exit('heightfield' in names or 'kirchhoff' in names)"
+    )
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
 
 
 def test_the_study_runs_and_says_which_findings_re_emerge():
-    done = subprocess.run([sys.executable, "examples/study.py", "1"], cwd=ROOT, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    done = subprocess.run(
+        [sys.executable, "examples/study.py", "1"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )
     assert done.returncode == 0, done.stderr
     kept = (ROOT / "docs" / "study.md").read_text()
     for key in ("S1.3", "S1.5b", "S2.6a", "S2.6b", "S3.3a", "S5.1", "S5.2b", "S0"):

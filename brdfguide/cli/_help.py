@@ -1,16 +1,20 @@
 """Help that fits a screen: commands by purpose, options by group, two real examples at the end."""
 
 import inspect
+from math import isfinite
 
 from typer.core import TyperCommand, TyperGroup
 
+from ..errors import InputError
+
 GROUPS = {
-    "Answers": ("recommend", "fit", "roughness"),
-    "Look at it": ("inspect", "preview", "figures", "evaluate"),
-    "Small sums": ("index", "albedo", "gloss"),
-    "Carry it on": ("export", "convert"),
-    "Catalogues": ("models", "materials"),
-    "Trust": ("check", "bench"),
+    "Answers": ("recommend", "fit", "plan", "roughness"),
+    "Look at it": ("inspect", "compare", "preview", "explore", "figures", "evaluate"),
+    "Small sums": ("index", "albedo", "gloss", "scatter"),
+    "Carry it on": ("numbers", "export", "convert"),
+    "Many surfaces": ("collect", "search"),
+    "Catalogues": ("models", "materials", "examples", "schema"),
+    "Trust": ("verify", "check", "bench"),
 }
 
 
@@ -18,7 +22,7 @@ class Group(TyperGroup):
     """The commands, each with the first sentence of its docstring, whole."""
 
     def format_commands(self, ctx, formatter) -> None:
-        lines = {name: first_sentence(self.get_command(ctx, name).help) for name in self.list_commands(ctx)}
+        lines = {name: first_sentence(command.help) for name, command in self.commands.items()}
         for title, names in GROUPS.items():
             rows = [(name, lines.pop(name)) for name in names if name in lines]
             if rows:
@@ -30,14 +34,26 @@ class Group(TyperGroup):
 
 
 class Command(TyperCommand):
-    """Options under the heading that each names, arguments first."""
+    """Options under the heading that each names, arguments first; a number is a number, neither infinite nor none."""
+
+    def parse_args(self, ctx, args):
+        rest = super().parse_args(ctx, args)
+        for parameter in self.get_params(ctx):
+            value = ctx.params.get(parameter.name)
+            if isinstance(value, float) and not isfinite(value):
+                raise InputError(f"{parameter.opts[0]} {value:g}: wanted a number")
+        return rest
 
     def format_options(self, ctx, formatter) -> None:
         sections: dict[str, list] = {}
         for parameter in self.get_params(ctx):
             row = parameter.get_help_record(ctx)
             if row is not None:
-                title = "Arguments" if parameter.param_type_name == "argument" else getattr(parameter, "rich_help_panel", None) or "Options"
+                title = (
+                    "Arguments"
+                    if parameter.param_type_name == "argument"
+                    else getattr(parameter, "rich_help_panel", None) or "Options"
+                )
                 sections.setdefault(title, []).append(row)
         for title in sorted(sections, key=lambda title: (title != "Arguments", title == "Options")):
             with formatter.section(title):

@@ -1,14 +1,34 @@
 """--plot and --report of the commands that answer: what they draw, shared."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from typer import Option
+from typer import Context, Option
 
-from ..errors import InputError
-from ._options import command_line, on_terminal, output_file, picture_file, print_json
+from .. import printable
+from ..errors import InputError, choices
+from ..face.pictures import ANGLE, AXES
+from ._options import (
+    Output,
+    ThemeOption,
+    command_line,
+    on_terminal,
+    output_file,
+    picture_file,
+    print_json,
+    remark,
+    tell,
+)
+from ._request import refuse
+from ._streams import say
 
-PlotOption = Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw the answer (png, svg or pdf).")]
+
+def checked_axis(axis: str) -> str:
+    """A callback. Raises InputError for another axis."""
+    if axis not in AXES:
+        raise choices("axis", axis, AXES)
+    return axis
 
 
 def _page_file(path: Path | None) -> Path | None:
@@ -17,104 +37,96 @@ def _page_file(path: Path | None) -> Path | None:
     return output_file(path)
 
 
-ReportOption = Annotated[Path | None, Option("--report", callback=_page_file, help="Write one page with everything (html).")]
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Pictures:
+    """What is drawn of an answer."""
+
+    plot: Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw the answer (png, svg or pdf).")] = (
+        None
+    )
+    report: Annotated[
+        Path | None, Option("--report", callback=_page_file, help="Write one page with everything (html).")
+    ] = None
+
+    explore: Annotated[
+        bool, Option("--explore", help="In --report also sliders, the live error and the contours of emergence.")
+    ] = False
+    theme: ThemeOption = "light"
+
+    def check(self, context: Context) -> None:
+        """Raises InputError for a theme of no picture: a page has both."""
+        if self.plot is None:
+            refuse(context, "theme", because="without --plot nothing is drawn; a page follows its reader's choice")
+        if self.report is None:
+            refuse(context, "explore", because="it stands in the page of --report; `explore` writes one of its own")
+
+    @property
+    def wanted(self) -> bool:
+        return bool(self.plot or self.report)
+
+    def say_written(self, quiet: bool) -> None:
+        """Which files there are now."""
+        for path in filter(None, (self.plot, self.report)):
+            remark(f"wrote {path}", quiet)
 
 
-def show_ranking(plot, report, document: dict, ranked, measurement, files) -> None:
-    """Picture and page of a fit."""
+def show_ranking(
+    pictures: Pictures, document: dict, ranked, measurement, file, axis: str = ANGLE, quiet: bool = False
+) -> None:
+    """Picture and page of a fit, those that are wanted; the picture over the reflection angle or as `axis` says."""
+    if not pictures.wanted:
+        return
+    from ..face.pictures import draw_fit, write_page
+
+    if pictures.plot:
+        draw_fit(pictures.plot, ranked, measurement, axis, pictures.theme)
+    if pictures.report:
+        write_page(pictures.report, document, ranked, measurement, file, command_line(), pictures.explore)
+    pictures.say_written(quiet)
+
+
+def show_answer(pictures: Pictures, document: dict, answer, files, quiet: bool = False) -> None:
+    """Picture and page of a description, those that are wanted: what its candidates promise."""
+    if not pictures.wanted:
+        return
     from ..report import page
-    from ..report import plot as drawing
+    from ..report.figures import promises, style
 
-    if plot:
-        drawing.fit(ranked, measurement, plot)
-    if report:
-        page.write(document, report, drawing.page_figures(ranked, measurement) + _looks(_drawn(ranked, measurement)), command_line(), files)
+    name = str(document.get("name") or "")
+    if pictures.plot and answer.candidates:
+        style.save(promises.promised(answer.candidates, name=name), pictures.plot, pictures.theme)
+    if pictures.report:
+        figures, block = promises.promise_figures(answer.candidates, name), ""
+        if pictures.explore and answer.candidates:
+            from ..face.explorer import block_of_candidates
 
-
-def show_answer(plot, report, document: dict, answer, files) -> None:
-    """Picture and page of a description: what its candidates promise."""
-    import numpy as np
-
-    from ..report import page, style
-    from ..report import plot as drawing
-
-    lines, looks = [], []
-    for each in answer.candidates[: drawing.MOST_LINES]:
-        start = {**each.model.defaults(), **{key: np.array(value) if isinstance(value, tuple) else value for key, value in each.start.items()}}
-        looks.append((each.model, start))
-        grey = {key: float(np.mean(value)) for key, value in start.items()}
-        lines.append(drawing.Line(each.model.name, each.model, grey, None))
-    fig = drawing.promised(lines) if lines else None
-    if plot and fig:
-        style.save(fig, plot)
-    if report:
-        caption = "What the candidates promise in the plane of incidence at their start values, finite part only."
-        figures = [(style.render(fig), caption)] + _looks(looks[:3]) if fig else []
-        page.write(document, report, figures, command_line(), files)
+            block = block_of_candidates(answer.candidates)
+        page.write(document, pictures.report, figures, command_line(), files, block)
+    if answer.candidates or pictures.report:
+        pictures.say_written(quiet)
 
 
-def print_ranking(document: dict, ranked, measurement, more: str, json: bool, quiet: bool) -> None:
-    """A fit on stdout: as JSON, in colour with a sketch on a terminal, as plain columns in a pipe; `more` comes below."""
-    if json:
+def print_ranking(document: dict, ranked, measurement, more: str, output: Output, full: bool = False) -> None:
+    """A fit on stdout: as JSON, in colour with a sketch on a terminal, in plain columns in a pipe; then `more`."""
+    if output.json:
         print_json(document)
     elif on_terminal():
-        from ..report import terminal
+        from ..report.text import terminal
 
-        terminal.show(document, _sketch(ranked, measurement), not quiet)
-        print(more, end="\n" if more else "")
+        sketch = _sketch(ranked, measurement)
+        text = terminal.coloured_text(printable.document(document), sketch=sketch, notes=not output.quiet, full=full)
+        say(text, shown=True)
+        tell(more, end="\n" if more else "")
     else:
-        from ..report import ranking
+        from ..report.text import ranking
 
-        print(ranking.ranking_text(document, notes=not quiet) + more)
+        tell(ranking.ranking_text(printable.document(document), notes=not output.quiet, full=full) + more)
 
 
 def _sketch(ranked, measurement) -> str:
     """The recommended model against the data, in braille, as wide as the terminal."""
-    from shutil import get_terminal_size
-
-    from ..report import lines, sketch
+    from ..report.figures import lines, sketch
+    from ..report.text.folding import screen_width
 
     pick = next(line for line in lines.lines_of(ranked) if line.recommended)
-    return sketch.lobes(pick, measurement, get_terminal_size().columns)
-
-
-def _drawn(ranked, measurement) -> list:
-    """The recommended model, and the worst of those that the figure shows, with the channels they were fitted to."""
-    from ..report import plot as drawing
-
-    lines = drawing.chosen(drawing.lines_of(ranked))
-    pick = next((line for line in lines if line.recommended), lines[0])
-    pair = [pick] + [line for line in lines[-1:] if line is not pick]
-    return [(line.model, line.values, measurement.channels, measurement.geom.wavelength) for line in pair]
-
-
-def _looks(surfaces) -> list[tuple[bytes, str]]:
-    """A preview of each (model, values[, channels, wavelengths]), side by side."""
-    from .. import preview
-    from ..report import picture, style
-
-    made = [_surface(*each) for each in surfaces]
-    sheet = picture.sheet([(each.name, "") for each in made], [preview.render(each, 256) for each in made])
-    how = f"The same light on each, a small sun and a sky with a horizon; {made[0].colour.how}."
-    return [(style.render(sheet, "png"), how)]
-
-
-def _surface(model, values, channels=None, wavelength=None):
-    """In colour where the channels carry one, else in the channel nearest 550 nm as grey."""
-    import numpy as np
-
-    from ..errors import NoAnswer
-    from ..exporters._base import Surface
-
-    if channels is None:
-        colours = max(np.size(value) for value in values.values()) == 3
-        channels, wavelength = (("R", "G", "B"), np.array([0.61, 0.55, 0.46])) if colours else (("550 nm",), np.array([0.55]))
-    wavelength = np.broadcast_to(wavelength, (len(channels),))
-    surface = Surface(model, values, tuple(channels), wavelength, model.name)
-    try:
-        surface.colour  # noqa: B018
-    except NoAnswer:
-        place = int(np.argmin(np.abs(wavelength - 0.55)))
-        one = {key: value[place] if np.size(value) > 1 else value for key, value in values.items()}
-        return Surface(model, one, (channels[place],), wavelength[place : place + 1], model.name)
-    return surface
+    return sketch.sketch_lobes(pick, measurement, screen_width() or 80)

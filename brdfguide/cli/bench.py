@@ -6,9 +6,8 @@ from typing import Annotated
 from typer import Argument, Option
 
 from ..errors import InputError
-from ._data import read_examined
 from ._fitting import ModelsOption, expressions
-from ._options import JsonOption, QuietOption, picture_file, print_json, progress
+from ._options import JsonOption, QuietOption, answer, picture_file, progress
 
 EXAMPLES = "Examples: brdfguide bench -m ggx,he-torrance | brdfguide bench examples/rough_plastic.csv --plot front.svg"
 
@@ -16,36 +15,54 @@ EXAMPLES = "Examples: brdfguide bench -m ggx,he-torrance | brdfguide bench examp
 def bench(
     data: Annotated[Path | None, Argument(help="Measured data to be wrong about; none: time alone.")] = None,
     models: ModelsOption = None,
-    plot: Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw error against run time (png, svg or pdf).")] = None,
+    plot: Annotated[
+        Path | None, Option("--plot", callback=picture_file, help="Draw error against run time (png, svg or pdf).")
+    ] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """Nanoseconds per sample at 1, a thousand and a million samples; with DATA also the error of each fitted model."""
-    from .. import bench as timing
+    from functools import partial
+
     from .. import models as catalogue
-    from ..report import timing as report
+    from ..audit import bench as timing
+    from ..models.surface import Surface
+    from ..report.documents.timing import document
+    from ..report.text.timing import text
 
     if plot is not None and data is None:
         raise InputError("--plot draws error against run time: give the measured data too")
-    chosen, ranked = expressions(models), None
+    names = expressions(models)
     if data is None:
-        surfaces = {name: (catalogue.get(name), {}) for name in chosen or catalogue.names()}
-        surfaces = {name: (surface, surface.defaults()) for name, (surface, _) in surfaces.items()}
+        ranked = None
+        surfaces = {name: Surface(catalogue.get(name), {}) for name in names or catalogue.names()}
     else:
-        from ..candidates import of_kind
-        from ..compare import compare
-
-        candidates = of_kind(None, chosen)
-        with progress(3 * len(candidates), quiet) as tell:
-            ranked = compare(read_examined(data), candidates, progress=tell)
-        surfaces = {row.fit.name: (row.fit.model, {key: value[0] if getattr(value, "ndim", 0) else value for key, value in row.fit.values.items()}) for row in ranked.rows}
-    laws = {name: (lambda geom, s=surface, v=values: s(geom, v)) for name, (surface, values) in surfaces.items()}
+        ranked = _ranked(data, names, quiet)
+        surfaces = {row.fit.name: row.fit.surface.channel(0) for row in ranked.rows}
+    evaluators = {name: partial(surface.model, values=surface.values) for name, surface in surfaces.items()}
     with progress(len(timing.SIZES), quiet) as tell:
-        found = timing.times(laws, tell=tell)
+        found = timing.timings(evaluators, tell=tell)
     errors = {row.fit.name: row.rms_ln for row in ranked.rows} if ranked else None
-    result = report.document(timing.machine(), found, {name: timing.operations(law) for name, law in laws.items()}, errors, str(data) if data else None)
+    result = document(
+        timing.machine(),
+        found,
+        {name: timing.operations_per_sample(evaluator) for name, evaluator in evaluators.items()},
+        errors,
+        str(data) if data else None,
+    )
     if plot is not None:
-        from ..report import plot as drawing
+        from ..report.figures import cost as drawing
 
-        drawing.write_cost(drawing.timed_lines(ranked, result), plot)
-    print_json(result) if json else print(report.text(result))
+        drawing.write_cost(drawing.timed_lines(ranked, result), plot, max(row["n"] for row in result["rows"]))
+    answer(result, json, text)
+
+
+def _ranked(data: Path, names: tuple[str, ...] | None, quiet: bool):
+    """The models, or all candidates, fitted to the data and ranked."""
+    from ..fitting.compare import compare
+    from ..fitting.job import read_for_fit
+    from ..models.candidates import of_kind
+
+    candidates = of_kind(None, names)
+    with progress(3 * len(candidates), quiet) as tell:
+        return compare(read_for_fit(data), candidates, progress=tell)

@@ -3,18 +3,27 @@
 from pathlib import Path
 from typing import Annotated
 
-from typer import Argument, Option
+from typer import Argument, Context, Option
 
 from ..errors import InputError, NoAnswer
-from ._options import JsonOption, QuietOption, print_json, progress
+from ..flags import Effect
+from ._options import JsonOption, QuietOption, answer, progress
+from ._request import refuse
 
-EXAMPLES = "Examples: brdfguide check ward ggx | brdfguide check --fit fit.json"
+EXAMPLES = "Examples: brdfguide check ward ggx | brdfguide check --fit fit.json --certify data.csv"
 
 
 def check(
+    context: Context,
     models: Annotated[list[str] | None, Argument(help="Models to audit; none: all of them.")] = None,
-    fit: Annotated[Path | None, Option("--fit", help="Audit the surface in a fit's JSON at its own parameters.")] = None,
+    fit: Annotated[
+        Path | None, Option("--fit", help="Audit the surface in a fit's JSON at its own parameters.")
+    ] = None,
     model: Annotated[str | None, Option("--model", help="Which row of the fit; none: the recommended.")] = None,
+    certify: Annotated[
+        Path | None,
+        Option("--certify", help="The data that --fit was fitted to: does SciPy's least squares go on from there?"),
+    ] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -23,16 +32,23 @@ def check(
     Ends with status 1 if a law fails that the model does not declare to break. All models take about half a minute.
     """
     from .. import models as catalogue
-    from ..report import audit as report
+    from ..report.documents.audit import document
+    from ..report.text.audit import text
 
     if fit is not None and models:
         raise InputError(f"either models or --fit, found {' '.join(models)} and {fit}")
+    if fit is None:
+        refuse(context, "model", because="it picks a row of the fit that --fit names; name models without it")
+        refuse(context, "certify", because="it certifies the fit that --fit names")
     if fit is not None:
-        from .. import audited, saved
+        from ..audit import fitted
+        from ..fitting import saved
 
-        checks, findings = audited.audit(saved.read_fit(fit, model))
+        checks, findings = fitted.audit_fitted(saved.read_fit(fit, model))
+        if certify is not None:
+            findings += (_certified(fit, model, certify),)
     else:
-        from .. import check as auditing
+        from ..audit import audit as auditing
 
         checks, findings, last = [], (), None
         with progress(len(models or catalogue.names()), quiet) as tell:
@@ -40,8 +56,19 @@ def check(
                 if each.model != last:
                     tell(last := each.model)
                 checks.append(each)
-    result = report.document(checks, findings)
-    print_json(result) if json else print(report.text(result))
-    failed = [f"{each.model} {each.law}" for each in checks if each.verdict == "fails"]
+    result = document(checks, findings)
+    answer(result, json, text)
+    failed = [f"{each.model} {each.check}" for each in checks if each.verdict == "fails"]
     if failed:
         raise NoAnswer(f"{len(failed)} undeclared failures: {', '.join(failed)}")
+    if any(each.effect is Effect.DENIES and each.severity == "warning" for each in findings):
+        raise NoAnswer(f"{fit}: SciPy does not agree that this is a minimum")
+
+
+def _certified(fit: Path, model: str | None, data: Path):
+    """What SciPy says of a fit, as a Finding."""
+    from ..audit.certify import certify
+    from ..fitting import saved
+    from ..fitting.job import Job, read_for_fit
+
+    return certify(saved.read_minimum(fit, model), read_for_fit(data, Job(anyway=True))).finding()

@@ -6,44 +6,64 @@ from typing import Annotated
 from typer import Argument, Option
 
 from ..errors import InputError
-from ._options import QuietOption, note, progress
+from ..opening import Held, held, open_for_reading
+from ..shipped import shipped
+from ._options import QuietOption, progress, remark
 
-EXAMPLES = "Examples: brdfguide figures pictures | brdfguide figures pictures --only 4,5 --format pdf --data 5=my_plastic.csv"
-EXAMPLE_FILES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = (
+    "Examples: brdfguide figures pictures | brdfguide figures pictures --only 4,5 --format pdf --data 5=my_plastic.csv"
+)
+LACKING = "this installation lacks the samples of the examples; "
+HEAD_BYTES = 2**14  # of a file, where it says what it is
 
 
 def figures(
     folder: Annotated[Path, Argument(metavar="DIR", help="Where to put them; made if it is not there.")],
     only: Annotated[str | None, Option("--only", help="Some of 1, 2, 4, 5, 7, 9, 11, 13, 14.")] = None,
-    data: Annotated[list[str] | None, Option("--data", help="Your own sample for Figure 4, 5, 7, 9 or 11: NUMBER=FILE; repeatable.")] = None,
+    data: Annotated[
+        list[str] | None, Option("--data", help="Your own sample for Figure 4, 5, 7, 9 or 11: NUMBER=FILE; repeatable.")
+    ] = None,
     kind: Annotated[str, Option("--format", help="png, svg or pdf.")] = "png",
     quiet: QuietOption = False,
 ) -> None:
     """Redraw the guide's figures from this program and from samples, synthetic unless you give your own."""
-    from .. import formats
-    from ..outputs import picture_kind
-    from ..report import figures as drawing
-    from ..report import style
+    from .. import files
+    from ..data import formats
+    from ..report.figures import paper as drawing
+    from ..report.figures import style
 
-    picture_kind(f"figure.{kind}")
+    files.picture_kind(f"figure.{kind}")
     numbers = [_number(word, drawing.TITLES) for word in only.split(",")] if only else list(drawing.TITLES)
     own = dict(_assignment(word, drawing.SAMPLES) for word in data or ())
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"cannot make {folder}: {error.strerror}") from None
+    if unused := sorted(own.keys() - set(numbers)):
+        raise InputError(f"--data {unused[0]}={own[unused[0]]}: Figure {unused[0]} is not among those of --only")
+    files.folder(folder)
+    missing = [number for number in numbers if number in drawing.SAMPLES and number not in own and not _sample(number)]
+    if missing == numbers:
+        raise InputError(LACKING + f"give your own: --data {missing[0]}=FILE")
     with progress(len(numbers), quiet) as tell:
         for number in numbers:
+            if number in missing:
+                continue
             measurement, origin = None, ""
             if number in drawing.SAMPLES:
-                path = own.get(number, EXAMPLE_FILES / drawing.SAMPLES[number][0])
-                if not path.exists() and number not in own:
-                    raise InputError(f"the samples lie in examples/ of the source; without it give your own: --data {number}=FILE")
-                measurement, origin = formats.read(path), _origin(path)
+                source = held(own.get(number) or _sample(number) or folder)
+                measurement, origin = formats.read(source), _origin(source)
             out = folder / f"figure_{number:02d}.{kind}"
-            style.save(drawing.draw(number, measurement, origin), out)
+            style.save(drawing.plot_figure(number, measurement, origin), out)
             tell(f"figure {number}")
-            note(str(out), quiet)
+            remark(str(out), quiet)
+    if missing:
+        which = ", ".join(map(str, missing))
+        remark(f"not made: {which}. {LACKING}give your own, such as --data {missing[0]}=FILE")
+
+
+def _sample(number: int) -> Path | None:
+    """The sample that came with the program; None where it did not."""
+    from ..report.figures import paper
+
+    folder = shipped("examples")
+    return None if folder is None else folder / paper.SAMPLES[number][0]
 
 
 def _number(word: str, known) -> int:
@@ -62,8 +82,9 @@ def _assignment(word: str, known) -> tuple[int, Path]:
     return _number(number, known), Path(file)
 
 
-def _origin(path: Path) -> str:
+def _origin(source: Path | Held) -> str:
     """What the file says of itself in a line `# origin: ...`, and its name."""
-    with open(path, encoding="utf-8", errors="replace") as lines:
-        said = [line.partition("origin:")[2].strip() for line, _ in zip(lines, range(20)) if line.startswith("#") and "origin:" in line]
-    return f"data: {path.name}" + (f", {said[0]}" if said else "")
+    with open_for_reading(source, str(source)) as stream:
+        lines = stream.read(HEAD_BYTES).decode(errors="replace").splitlines()
+    said = [line.partition("origin:")[2].strip() for line in lines[:20] if line.startswith("#") and "origin:" in line]
+    return f"data: {Path(str(source)).name}" + (f", {said[0]}" if said else "")

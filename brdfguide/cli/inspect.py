@@ -1,40 +1,97 @@
 """`brdfguide inspect DATA`: what a data file is, what is wrong with it, and what each finding changes."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from typer import Argument, Option
+from typer import Argument, Context, Exit, Option
 
-from ._data import AveragePhiOption, ColumnsOption, InPlaneOption, MirrorSideOption, QuantityOption, ThetaMaxOption, UnitOption, WavelengthOption, read
-from ._options import JsonOption, picture_file, print_json
+from ..errors import InputError
+from ._data import Reading, TurnedOption
+from ._many import Many
+from ._options import JsonOption, ThemeOption, answer, picture_file, print_json
+from ._request import refuse
 
 EXAMPLES = "Examples: brdfguide inspect run.csv --plot run.png | brdfguide inspect gold-paint.binary --json"
 
 
-def inspect(
-    data: Annotated[Path, Argument(help="Measured data: tables of many kinds, MERL, RGL, Cornell, Zemax, FRED, LightTools, ALTA, ASTM E1392, OpenMATERIAL; - for standard input.")],
-    columns: ColumnsOption = None,
-    unit: UnitOption = None,
-    quantity: QuantityOption = None,
-    mirror_side: MirrorSideOption = None,
-    average_phi_i: AveragePhiOption = False,
-    wavelength: WavelengthOption = None,
-    in_plane: InPlaneOption = False,
-    theta_max: ThetaMaxOption = None,
-    plot: Annotated[Path | None, Option("--plot", callback=picture_file, help="Draw coverage, values, reciprocity and energy (png, svg or pdf).")] = None,
-    json: JsonOption = False,
-) -> None:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class InspectRequest:
+    """Everything that `inspect` is asked."""
+
+    context: Context
+    data: Annotated[
+        list[Path] | None,
+        Argument(
+            metavar="[DATA]...",
+            help=(
+                "A file of measured data: tables of many kinds, MERL, RGL, Cornell, Zemax, FRED, LightTools, ALTA, "
+                "ASTM E1392, OpenMATERIAL; photographs of a ball, described in YAML; - for standard input. Several, or "
+                "a folder: a row each."
+            ),
+        ),
+    ] = None
+    reading: Reading
+    turned: TurnedOption = None
+    plot: Annotated[
+        Path | None,
+        Option(
+            "--plot", callback=picture_file, help="Draw coverage, values, reciprocity and energy (png, svg or pdf)."
+        ),
+    ] = None
+    theme: ThemeOption = "light"
+    many: Many
+    sarif: Annotated[bool, Option("--sarif", help="What was found as SARIF 2.1.0, for editors and hosts of code.")] = (
+        False
+    )
+    json: JsonOption = False
+
+
+def inspect(request: InspectRequest) -> None:
     """Say what a data file is: format, coverage, quantity, conventions, reciprocity, energy, gaps, spikes, noise."""
-    from .. import examine
-    from ..report import inspection
+    from ..data import examine, formats, joined
+    from ..report.documents import inspection
+    from ..report.documents.sarif import sarif_document
+    from ..report.text.inspection import text
 
-    measurement = read(data, columns, unit, quantity, mirror_side, wavelength, in_plane, theta_max, average_phi_i=average_phi_i)
+    if request.plot is None:
+        refuse(request.context, "theme", because="without --plot nothing is drawn")
+    if request.json:
+        refuse(request.context, "sarif", because="--json is another form of the same answer")
+    options, words = request.reading.options(), [str(each) for each in request.data or ()]
+    if not words and request.many.files_from is None:
+        raise InputError("no DATA: wanted a file of measured data, several, a folder, or --files-from LIST")
+    if request.many.is_many(words) and not request.turned:
+        refuse(request.context, "sarif", because="one file at a time")
+        raise Exit(_inspect_many(request, words))
+    request.many.refuse_for_one(request.context)
+    if request.turned:
+        turns = joined.turn_angles(request.turned)
+        measurement = joined.read_turned(list(map(Path, words)), turns, anyway=True, **options)
+    else:
+        measurement = formats.read(words[0], **options)
     found = examine.examine(measurement)
-    settled = examine.corrected(measurement, anyway=True)
-    changes = (*settled.findings[len(measurement.findings) :], *(each for each in found if each.code in ("spikes", "dark-edge")))
-    result = inspection.document(measurement, found, changes)
-    if plot:
-        from ..report import survey
+    result = inspection.document(measurement, found, examine.changes(measurement, found))
+    if request.plot:
+        from ..report.figures import inspection as survey
 
-        survey.draw(*examine.drawn(measurement), plot, str(data))
-    print_json(result) if json else print(inspection.text(result))
+        looked_at, spiky, pairs, level = examine.plotted(measurement)
+        survey.plot_survey(looked_at, spiky, pairs, level, request.plot, str(words[0]), request.theme)
+    if request.sarif:
+        print_json(sarif_document(result))
+        return
+    answer(result, request.json, text)
+
+
+def _inspect_many(request: InspectRequest, words: list[str]) -> int:
+    """A row for each file; the exit status."""
+    from ..batch.other_work import InspectWork
+    from ._batch import Batch, answer_many, tasks_of
+
+    context, many = request.context, request.many
+    refuse(context, "plot", "theme", because="a picture is of one file")
+    work = InspectWork(reading=tuple(request.reading.options().items()))
+    tasks = tasks_of(many.labels(context, words), work)
+    return answer_many(
+        Batch(context=context, many=many, work=work, kind="inspect", json=request.json, quiet=False), tasks
+    )

@@ -1,10 +1,11 @@
-"""`brdfguide materials [NAME]`: described surfaces that come with the program, one of them, or the keys of a description."""
+"""`brdfguide materials [NAME]`: described surfaces that come along, one of them, or the keys of a description."""
 
 from typing import Annotated
 
 from typer import Argument, Option
 
-from ._options import JsonOption, print_json
+from ..errors import InputError
+from ._options import JsonOption, answer
 
 EXAMPLES = "Examples: brdfguide materials porcelain | brdfguide materials --keys"
 
@@ -15,22 +16,53 @@ def materials(
     json: JsonOption = False,
 ) -> None:
     """List the described materials, show one with its sources, or list the keys of a description."""
-    from .. import material, shelf
-    from ..report import table
-
+    if keys and name is not None:
+        raise InputError(f"--keys lists what any description may hold; {name} is one: ask for one of the two")
     if keys:
-        fields = [(each.name, table.takes(each), each.meaning) for field in material.FIELDS for each in (field, *table.inner(field))]
-        document = {"schema": "brdfguide/material-keys/1", "keys": [{"key": k, "takes": t, "meaning": m} for k, t, m in fields]}
-        text = table.columns(("key", "takes", "meaning"), fields)
+        document, text = _keys()
     elif name is None:
-        found = [(each, material.read_material(shelf.path(each))) for each in shelf.names()]
-        rows = [(each, made.given.get("kind") or made.composition or "", made.given.get("appearance", ""), made.finish or "", made.given.get("about", "")) for each, made in found]
-        header = ("material", "kind or substance", "appearance", "finish", "about")
-        document = {"schema": "brdfguide/materials/1", "materials": [dict(zip(("name", "of", "appearance", "finish", "about"), row)) for row in rows]}
-        text = table.columns(header, rows)
+        document, text = _all()
     else:
-        path = shelf.path(name)
-        made = material.read_material(path)
-        document = {"schema": "brdfguide/materials/1", "name": path.stem, "given": dict(made.given)}
-        text = path.read_text(encoding="utf-8").rstrip()
-    print_json(document) if json else print(text)
+        document, text = _one(name)
+    answer(document, json, lambda _: text)
+
+
+def _keys() -> tuple[dict, str]:
+    """What a description may hold, as a document and as text."""
+    from ..advice import material
+    from ..report.documents import catalogue
+    from ..report.text import table
+
+    header = ("key", "takes", "meaning")
+    rows = [
+        (each.name, catalogue.takes(each), each.meaning)
+        for field in material.FIELDS
+        for each in (field, *catalogue.inner(field))
+    ]
+    keys = [dict(zip(header, row, strict=True)) for row in rows]
+    return {"schema": "brdfguide/material-keys/1", "keys": keys}, table.columns(header, rows)
+
+
+def _all() -> tuple[dict, str]:
+    """Every described material, a line each."""
+    from ..advice import library, material
+    from ..report.text import table
+
+    rows = []
+    for name in library.library_names():
+        made = material.read_material(library.path(name))
+        of = made.given.get("kind") or made.composition or ""
+        rows.append((name, of, made.given.get("appearance", ""), made.finish or "", made.given.get("about", "")))
+    entries = [dict(zip(("name", "of", "appearance", "finish", "about"), row, strict=True)) for row in rows]
+    header = ("material", "kind or substance", "appearance", "finish", "about")
+    return {"schema": "brdfguide/materials/1", "materials": entries}, table.columns(header, rows)
+
+
+def _one(name: str) -> tuple[dict, str]:
+    """One description as it stands in its file, with its sources."""
+    from ..advice import library, material
+
+    path = library.path(name)
+    given = dict(material.read_material(path).given)
+    document = {"schema": "brdfguide/materials/1", "name": path.stem, "given": given}
+    return document, path.read_text(encoding="utf-8").rstrip()

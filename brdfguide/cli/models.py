@@ -4,9 +4,9 @@ from typing import Annotated
 
 from typer import Argument
 
-from ._options import JsonOption, print_json
+from ._options import JsonOption, answer
 
-EXAMPLES = "Examples: brdfguide models | brdfguide models ward"
+EXAMPLES = "Examples: brdfguide models | brdfguide models ward | brdfguide models coated:flakes"
 
 
 def models(
@@ -15,14 +15,18 @@ def models(
 ) -> None:
     """List the reflectance models, or show one: law, source, parameters, what it is good and bad at."""
     from .. import models as catalogue
-    from ..report import table
+    from ..report.documents.catalogue import model_entry
+    from ..report.text.catalogue import model_text, models_text
 
     if name is None:
-        terms = [catalogue.term(each) for each in catalogue.names()]
-        document = {"schema": "brdfguide/models/1", "models": [{"name": t.name, "summary": t.summary, "source": t.source} for t in terms]}
-        text = table.columns(("model", "what for"), [(t.name, t.summary) for t in terms])
+        terms = [*map(catalogue.term, catalogue.names()), catalogue.coat.MODEL]
+        document = {
+            "schema": "brdfguide/models/1",
+            "models": [{"name": t.name, "summary": t.summary, "source": t.source} for t in terms],
+        }
+        text = models_text(document)
     else:
-        term = catalogue.term(name)
-        document = {"schema": "brdfguide/models/1", "models": [table.model_entry(term)]}
-        text = table.model_text(term)
-    print_json(document) if json else print(text)
+        entry = model_entry(catalogue.coat.MODEL if name == "coat" else catalogue.term(name))
+        document = {"schema": "brdfguide/models/1", "models": [entry]}
+        text = model_text(entry)
+    answer(document, json, lambda _: text)

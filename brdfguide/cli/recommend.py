@@ -1,75 +1,158 @@
 """`brdfguide recommend INPUT...`: a model with parameters for a described surface, a measured one, or both."""
 
+from dataclasses import dataclass
 from typing import Annotated
 
-from typer import Argument, Exit, Option
+from typer import Argument, Context, Exit, Option
 
-from ..errors import InputError
+from .. import printable
+from ..errors import BrdfguideError, InputError
+from ._fitting import ModelsOption, expressions
 from ._inputs import sort_inputs, with_measurements
-from ._options import JsonOption, NoTimingOption, QuietOption, note, print_json
-from ._report import PlotOption, ReportOption, show_answer
+from ._many import Many
+from ._numbers import NumbersOption, numbers_of
+from ._options import FullOption, Output, print_json, remark, tell
+from ._report import Pictures, show_answer
+from ._request import refuse
 from ._scene import SceneOption, of_answer
-from ._surface import ExportOption, MaxErrorOption, export_all, of_recommendation
+from ._surface import AsOption, Exporting, export_all
 
 EXAMPLES = "Examples: brdfguide recommend porcelain | brdfguide recommend my_surface.yaml scan.csv --explain"
 
 
-def recommend(
-    inputs: Annotated[list[str], Argument(metavar="INPUT...", help="A description (YAML, - for standard input, or a name of `brdfguide materials`), a measurement, or both.")],
-    models: Annotated[str | None, Option("--models", "-m", help="Try these sums, such as ggx,lambertian+ward.")] = None,
-    scene: SceneOption = None,
-    plot: PlotOption = None,
-    report: ReportOption = None,
-    explain: Annotated[bool, Option("--explain", help="Every rule, also those that were silent.")] = False,
-    anyway: Annotated[bool, Option("--anyway", help="Answer also outside the guide's domain.")] = False,
-    export: ExportOption = None,
-    max_export_error: MaxErrorOption = None,
-    no_timing: NoTimingOption = False,
-    json: JsonOption = False,
-    quiet: QuietOption = False,
-) -> None:
-    """Recommend reflectance models with start values, and say why, how surely and what they cannot do."""
-    from .. import recommend as advisor
-    from ..report import advice
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RecommendRequest:
+    """Everything that `recommend` is asked, of descriptions and of measurements."""
 
-    names = [each.strip() for each in models.split(",")] if models else None
-    described, measured = sort_inputs(inputs)
-    if (plot or report) and max(len(described), len(measured)) > 1:
-        raise InputError("--plot and --report show one answer; give one description, one measurement or one of each")
-    answers = [advisor.recommend(each, anyway, names) for each in described]
+    context: Context
+    inputs: Annotated[
+        list[str] | None,
+        Argument(
+            metavar="[INPUT]...",
+            help=(
+                "A description (YAML, - for standard input, or a name of `brdfguide materials`), a measurement, or "
+                "both."
+            ),
+        ),
+    ] = None
+    models: ModelsOption = None
+    scene: SceneOption = None
+    pictures: Pictures
+    explain: Annotated[bool, Option("--explain", help="Every rule, also those that were silent.")] = False
+    anyway: Annotated[bool, Option("--anyway", help="Answer also outside the guide's domain.")] = False
+    as_: AsOption = None
+    numbers: NumbersOption = False
+    exporting: Exporting
+    many: Many
+    output: Output
+    full: FullOption = False
+
+
+def recommend(request: RecommendRequest) -> None:
+    """Recommend reflectance models with start values, and say why, how surely and what they cannot do."""
+    from ..advice import recommend as advisor
+
+    context, typed = request.context, request.inputs or []
+    if not typed and request.many.files_from is None:
+        raise InputError("no INPUT: wanted a description, a measurement, a folder, or --files-from LIST")
+    if request.many.is_typed(context) or (len(typed) == 1 and request.many.is_many(typed)):
+        raise Exit(_recommend_many(request, typed))
+    request.exporting.check(context)
+    request.pictures.check(request.context)
+    described, measured = sort_inputs(typed)
+    if request.output.json:
+        refuse(request.context, "full", because="--json holds everything")
+    if not described:
+        refuse(request.context, "explain", because="the rules speak about a description, and there is none")
+    for words, wanted in (
+        ("--plot and --report show", request.pictures.wanted),
+        ("--export writes", request.exporting.export),
+    ):
+        if wanted and max(len(described), len(measured)) > 1:
+            raise InputError(f"{words} one answer; give one description, one measurement or one of each")
+    answers = [advisor.recommend(each, request.anyway, expressions(request.models)) for each in described]
     if measured:
-        if export and len(measured) > 1:
-            raise InputError(f"--export writes one surface, found {len(measured)} measurements")
-        export_fit = lambda fit, data: export_all(  # noqa: E731
-            export, fit.model, fit.values, data.channels, data.geom.wavelength, data.geom, data.name, max_export_error, quiet
-        )
-        with_measurements(answers, measured, names, scene, (plot, report), anyway, explain, no_timing, json, quiet, export_fit)
-        return
-    documents = [advice.document(each, not no_timing, explain) for each in answers]
-    texts = [advice.text(each, explain, not no_timing) for each in answers]
-    if scene:
-        texts = [text + of_answer(scene, answer, document, not no_timing, quiet) for text, answer, document in zip(texts, answers, documents)]
-    if plot or report:
-        show_answer(plot, report, documents[0], answers[0], inputs)
-    failed = _exported(export, answers, max_export_error, quiet)
-    if json:
-        print_json(documents[0] if len(documents) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": documents})
+        with_measurements(answers, measured, request)
     else:
-        print("\n\n".join(texts))
+        of_descriptions(answers, request)
+
+
+def _recommend_many(request: RecommendRequest, words: list[str]) -> int:
+    """A row for each description; the exit status."""
+    from ..batch.other_work import AdviceWork
+    from ._batch import Batch, answer_many, refuse_unseen, tasks_of
+
+    context, many, output = request.context, request.many, request.output
+    because = "of one description at a time; several with an option about many are a row each"
+    refuse(context, "scene", "plot", "report", "theme", "as_", "numbers", "full", because=because)
+    refuse(context, "export", "max_export_error", because="`export` with many descriptions writes a file for each")
+    refuse_unseen(context, many, output.json, "explain")
+    models = expressions(request.models)
+    work = AdviceWork(models=models, anyway=request.anyway, explain=request.explain, timing=output.timing)
+    tasks = tasks_of(many.labels(context, words), work)
+    batch = Batch(
+        context=context, many=many, work=work, kind="recommend", json=output.json, quiet=output.quiet, what="surfaces"
+    )
+    return answer_many(batch, tasks)
+
+
+def of_descriptions(answers, request: RecommendRequest) -> None:
+    """Shows what the guidelines say of each description; ends with status 1 where one lies outside their domain."""
+    from ..report.documents import recommendation
+    from ..report.text.as_shader import described_as_text
+    from ..report.text.recommendation import text
+
+    output = request.output
+    documents = [recommendation.document(each, output.timing, request.explain) for each in answers]
+    texts = [text(printable.document(each), request.explain, request.full) for each in documents]
+    if request.scene:
+        for place, (answer, document) in enumerate(zip(answers, documents, strict=True)):
+            texts[place] += of_answer(request.scene, answer, document, output)
+    if request.as_:
+        for place, answer in enumerate(answers):
+            if answer.candidates:
+                documents[place]["as"] = _as_shader(answer, request.as_)
+                texts[place] += "\n\n" + described_as_text(printable.document(documents[place])["as"])
+    for place, answer in enumerate(answers):
+        surfaces = [each.surface for each in answer.candidates]
+        texts[place] += numbers_of(surfaces, request, documents[place])
+    show_answer(request.pictures, documents[0], answers[0], request.inputs or [], output.quiet)
+    written, failed = _exported(answers[0], request)
+    documents[0] |= {"exports": written} if request.exporting.export else {}
+    if output.json:
+        print_json(
+            documents[0] if len(documents) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": documents}
+        )
+    else:
+        tell("\n\n".join(texts))
     if failed:
         raise failed
     outside = [each for each in answers if not each.candidates]
     for each in outside:
-        note(f"brdfguide: {each.material.name or 'this surface'} is outside the guide's domain: {each.reasons[0].says}; --anyway answers all the same", False)
+        remark(
+            f"brdfguide: {each.material.name or 'this surface'} is outside the guide's domain: "
+            f"{each.reasons[0].says}; --anyway answers all the same"
+        )
     if outside:
         raise Exit(1)
 
 
-def _exported(specs, answers, most, quiet):
+def _as_shader(answer, name: str) -> dict:
+    """Of the candidates that which the shader holds best, with the shader's numbers and their error."""
+    from ..exporters import coloured, held_best, statement_document
+    from ..face.surfaces import every_candidate
+    from ..report.documents.plain import plain
+
+    shown = [coloured(each, answer.material.name or "surface") for each in every_candidate(answer)]
+    taken, made = held_best(name, shown)
+    return plain(statement_document(made.statement, taken, []))
+
+
+def _exported(answer, request: RecommendRequest) -> tuple[list[dict], BrdfguideError | None]:
     """What `--export` asks for, of the one description; the error that stopped it, if any."""
-    if not specs or not answers or not answers[0].candidates:
-        return None
-    if len(answers) > 1:
-        raise InputError(f"--export writes one surface, found {len(answers)} descriptions")
-    saved = of_recommendation(answers[0])
-    return export_all(specs, saved.model, saved.values, saved.channels, saved.wavelength, None, answers[0].material.name or "surface", most, quiet)
+    if not request.exporting.export or not answer.candidates:
+        return [], None
+    from ..face.surfaces import every_candidate
+
+    surface, name = every_candidate(answer), answer.material.name or "surface"
+    return export_all(request.exporting, surface, None, name, request.output.quiet)

@@ -1,11 +1,20 @@
 """Fitted models as files that renderers load, one target per file, each with the error that it costs."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from .. import catalog
+from .. import catalog, opening
 from ..errors import InputError, NoAnswer
-from ..geometry import Geometry
-from ._base import Export, Exporter, Statement, Surface, check_values
+from ..files import taken, write_whole
+from ..models.surface import Surface
+from ..physics import seen
+from ..physics.geometry import Geometry
+from . import _grained
+from ._choice import GOOD, with_the_coat
+from ._nearest import with_the_nearest
+from ._shown import off_the_measurement
+from .exporter import ColouredSurface, Export, Exporter, Refused, Statement, coloured
 
 
 def names() -> list[str]:
@@ -18,31 +27,82 @@ def get(target: str) -> Exporter:
     return catalog.load("exporters", target.strip().lower().replace("_", "-")).EXPORTER
 
 
-def surface_of(saved, name: str = "surface", command: str = "", channel: str | None = None) -> Surface:
-    """The Surface of anything with model, values, channels and wavelength; `channel` picks one of its channels.
+def export(
+    target: str,
+    surface: ColouredSurface,
+    geom: Geometry | None = None,
+    *,
+    most: float | None = None,
+    stem: str = "surface",
+) -> Export:
+    """The file of a surface for a target.
 
-    Raises InputError for values out of bounds or of the wrong length, and for a channel that is not there.
+    Raises NoAnswer where the target cannot express it or its error exceeds `most`.
     """
-    channels = tuple(saved.channels)
-    values = check_values(saved.model, saved.values, len(channels))
-    wavelength = saved.wavelength
-    if channel is not None:
-        if channel not in channels:
-            raise InputError(f"no channel called '{channel}'; there are: {', '.join(channels)}")
-        place = channels.index(channel)
-        values = {key: value[place] if getattr(value, "size", 1) > 1 else value for key, value in values.items()}
-        channels = (channel,)
-        wavelength = wavelength[place : place + 1] if len(wavelength) > 1 else wavelength
-    return Surface(saved.model, values, channels, wavelength, name, command)
-
-
-def export(target: str, surface: Surface, geom: Geometry | None = None, *, most: float | None = None, stem: str = "surface") -> Export:
-    """The file of a surface for a target. Raises NoAnswer where the target cannot express it or its error exceeds `most`."""
-    made = get(target).export(surface, geom, stem)
-    error = made.statement.rms_ln
-    if most is not None and not error <= most:
-        raise NoAnswer(f"{made.statement.sentence()}: more than --max-export-error {most:g}; nothing was written")
+    exporter = get(target)
+    _refuse_what_turns(surface, exporter)
+    made = exporter.export(surface, geom, stem)
+    _refuse_above(made.statement, most)
     return made
+
+
+def _refuse_what_turns(surface: ColouredSurface, exporter: Exporter) -> None:
+    """Raises NoAnswer for a surface that looks different once it is turned in its plane, and a target that does not."""
+    turning = _grained.terms_that_turn(surface)
+    if not turning or (exporter.grained and _grained.axis_of(surface) is not None):
+        return
+    why = turning[0].model.breaks["rotation"]
+    holds = ", ".join(name for name in names() if get(name).grained)
+    what = (
+        f"{exporter.name} does not turn with it; {holds} do" if not exporter.grained else "it has more than one grain"
+    )
+    raise NoAnswer(f"{turning[0].label} changes as the sample turns: {why}; {what}")
+
+
+def held_best(
+    target: str,
+    surfaces: Sequence[ColouredSurface],
+    geom: Geometry | None = None,
+    *,
+    most: float | None = None,
+    stem: str = "surface",
+) -> tuple[ColouredSurface, Export]:
+    """Of candidates for one surface, best first, the first that a target holds within GOOD, else the one that it holds
+    best; with its file. A coat's mirror is not given up for a better number.
+
+    Raises what `export` raises for the first where none can be written.
+    """
+    found: list[tuple[ColouredSurface, Export]] = []
+    refused: list[NoAnswer] = []
+    for surface in with_the_coat(surfaces):
+        try:
+            found.append((surface, export(target, surface, geom, stem=stem)))
+        except NoAnswer as error:
+            refused.append(error)
+            continue
+        if found[-1][1].statement.rms_ln <= GOOD:
+            break
+    if not found:
+        first = refused[0]
+        raise with_the_nearest(first, surfaces[0], geom, export) if isinstance(first, Refused) else first
+    taken, made = min(found, key=lambda each: each[1].statement.rms_ln)
+    if taken is not surfaces[0]:
+        made = replace(made, statement=_for_the_target(made.statement, surfaces[0], taken))
+    _refuse_above(made.statement, most)
+    return taken, made
+
+
+def _for_the_target(statement: Statement, first: ColouredSurface, taken: ColouredSurface) -> Statement:
+    """With the sentence that another candidate than the recommended one is written."""
+    why = f"written of {taken.model.name}: {statement.target} holds less of the recommended {first.model.name}"
+    return replace(statement, notes=(*statement.notes, why))
+
+
+def _refuse_above(statement: Statement, most: float | None) -> None:
+    """Raises NoAnswer for too large an error: against the measurement, where there is one."""
+    error = statement.rms_ln if statement.measured_rms_ln is None else statement.measured_rms_ln
+    if most is not None and not error <= most:
+        raise NoAnswer(f"{statement.sentence()}: more than --max-export-error {most:g}; nothing was written")
 
 
 def parse_spec(spec: str) -> tuple[str, Path]:
@@ -53,29 +113,68 @@ def parse_spec(spec: str) -> tuple[str, Path]:
     return get(target).name, Path(file)
 
 
-def export_to(spec: str, sum, values, channels, wavelength, geom=None, *, name="surface", command="", most=None, write=None) -> Statement:  # noqa: A002
-    """What `--export TARGET:FILE` does: writes FILE, and files that must lie beside it, through `write(path, content)`.
+def export_to(
+    spec: str,
+    surface: Surface | Sequence[Surface],
+    geom=None,
+    *,
+    name="surface",
+    command="",
+    most=None,
+    write=None,
+    measured=None,
+) -> tuple[Statement, dict]:
+    """What `--export TARGET:FILE` does: writes FILE, and files that must lie beside it, through `write(path, content)`;
+    of several candidates for one surface that which the target holds best. Gives the Statement, and it for programs.
 
-    Raises InputError for a spec without a target or a file; otherwise raises what `export` raises, with nothing written.
+    `measured` (samples, channels) [1/sr] at `geom`: then `most` bounds the error against it.
+    Raises InputError for a spec without a target or a file; otherwise raises what `export` raises, with nothing
+    written.
     """
     target, path = parse_spec(spec)
-    surface = Surface(sum, check_values(sum, values, len(channels)), tuple(channels), wavelength, name, command)
-    made = export(target, surface, geom, most=most, stem=path.stem)
-    put = write or _write
-    for suffix, content in made.beside.items():
-        put(path.with_suffix(suffix), content)
-    put(path, made.content)
-    return made.statement
+    several = [surface] if isinstance(surface, Surface) else surface
+    shown = [coloured(each, name, command) for each in several]
+    taken, made = held_best(target, shown, geom, most=most if measured is None else None, stem=path.stem)
+    statement = made.statement
+    if measured is not None:
+        off = off_the_measurement(statement.shown, taken.colour.matrix, geom, measured)
+        statement = replace(statement, measured_rms_ln=off)
+        _refuse_above(statement, most)
+    files = files_of(made, path)
+    for file, content in files.items():
+        (write or write_whole)(file, content)
+    return statement, statement_document(statement, taken, [str(each) for each in reversed(files)])
 
 
-def _write(path: Path, content: str | bytes) -> None:
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
+def files_of(made: Export, path: Path) -> dict[Path, str | bytes]:
+    """Every file of an Export with its content, `path` itself last.
+
+    Raises InputError where those beside it cannot be.
+    """
+    beside: dict[Path, str | bytes] = {path.with_name(name): content for name, content in made.beside.items()}
+    if beside and opening.exists(path) and not taken(path):
+        raise InputError(f"{path} is no plain file, and {', '.join(made.beside)} must lie beside it")
+    if path in beside:
+        raise InputError(f"{path} would hold what must lie beside it; call it {path.with_suffix('.rad').name}, say")
+    return {**beside, path: made.content}
 
 
-def document(statement: Statement, surface: Surface, files: list[str]) -> dict:
+def statement_document(statement: Statement, surface: ColouredSurface, files: list[str]) -> dict:
     """A Statement for programs."""
     return {
-        "schema": "brdfguide/export/1", "target": statement.target, "model": surface.model.name, "files": files,
-        "status": statement.status, "rms_ln": statement.rms_ln, "directions": statement.directions, "over": statement.over,
-        "written": dict(statement.written), "lost": list(statement.lost), "notes": list(statement.notes), "colour": statement.colour,
-    }  # fmt: skip
+        "schema": "brdfguide/export/1",
+        "target": statement.target,
+        "model": surface.model.name,
+        "files": files,
+        "status": statement.status,
+        "rms_ln": statement.rms_ln,
+        "measured_rms_ln": statement.measured_rms_ln,
+        "seen": statement.seen,
+        "seen_words": None if statement.seen is None else seen.band_words(statement.seen),
+        "directions": statement.directions,
+        "over": statement.over,
+        "written": dict(statement.written),
+        "lost": list(statement.lost),
+        "notes": list(statement.notes),
+        "colour": statement.colour,
+    }

@@ -4,18 +4,22 @@ Where the model's own parameters mean the same in the target they are written as
 is fitted. The residual is always measured with the rounded numbers that the file holds.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from ..geometry import Geometry
-from ._base import EXACT, Statement, Surface, number, numbers
-from ._directions import chosen, rms_ln
-from ._refit import Law, fit
+from ..models.model import Model
+from ..physics.geometry import Geometry
+from ._directions import judged_over, rms_ln
+from ._refit import TargetModel, refit
+from ._shown import Shown, beside_mirror, seen_of
+from .exporter import EXACT, ColouredSurface, Statement, number, numbers, status_of
 
-FACETS = {"ggx", "beckmann", "cook-torrance"}
-BODIES = {"lambertian", "coupled", "oren-nayar"}
+FACETS = {"alpha", "n", "k", "scale"}  # parameters of a law whose numbers the targets' own facets may take over
+GOOD = 0.1  # rms ln within which a target is taken to hold a surface
+ONE_LOBE = "lobes become one"
 SIMPLER = 1.02  # a law with fewer parts is taken if it is no worse than this
 
 
@@ -28,107 +32,173 @@ class Choice:
     rms_ln: float
     directions: int
     over: str
+    brdf: Callable[[Geometry], np.ndarray] | None = None  # the law with these numbers; None where it is a mirror's
+    mirror: Callable[[Geometry], np.ndarray] | None = None  # its reflectance at theta_i; None: the surface's own
+    spectral: bool = False  # whether its columns are the surface's channels, not colours
 
-    def statement(self, target: str, surface: Surface, *, lost=(), notes=(), mirror: float = 0.0, colour: str = "") -> Statement:
+    def statement(
+        self, target: str, surface: ColouredSurface, *, lost=(), notes=(), mirror: float = 0.0, colour: str = ""
+    ) -> Statement:
         """The Statement; `mirror` is the residual of an ideal mirror written beside the law."""
         worst = max(self.rms_ln, mirror)
-        status = "lossy" if lost else "exact" if worst <= EXACT else "refit"
-        return Statement(target, status, worst, self.directions, self.over, dict(self.values), tuple(lost), tuple(notes), colour or surface.colour.how)
+        status = status_of(worst, lost)
+        return Statement(
+            target,
+            status,
+            worst,
+            self.directions,
+            self.over,
+            dict(self.values),
+            tuple(lost),
+            tuple(notes),
+            colour or surface.colour.how,
+            *self._seen(surface),
+        )
+
+    def _seen(self, surface: ColouredSurface) -> tuple[float | None, Shown | None]:
+        """S between the surface and what the numbers show, and that as a function."""
+        shown = self.shown(surface)
+        return None if shown is None else seen_of(surface, shown), shown
+
+    def shown(self, surface: ColouredSurface) -> Shown | None:
+        """What the numbers show in linear sRGB, with a mirror's image; None of a mirror alone."""
+        if self.brdf is None:
+            return None
+        brdf, mixing = self.brdf, surface.colour.matrix.T if self.spectral else np.eye(3)
+
+        def finite(geom: Geometry) -> np.ndarray:
+            f = brdf(geom)
+            return np.broadcast_to(f, (len(geom), len(mixing))) @ mixing
+
+        return beside_mirror(surface, finite, self.mirror)
 
 
-def choose(surface: Surface, geom: Geometry | None, laws: Mapping[str, Law], *, spectral: bool = False) -> Choice:
-    """The best of `laws`, simplest first, with parameters rounded as they will be written."""
-    geom, wanted, over = chosen(surface, geom, spectral)
-    return best_of(laws, geom, wanted, own_values(surface, spectral), over)
+def choose(
+    surface: ColouredSurface, geom: Geometry | None, targets: Mapping[str, TargetModel], *, spectral: bool = False
+) -> Choice:
+    """The best of `targets`, simplest first, with parameters rounded as they will be written."""
+    geom, wanted, over = judged_over(surface, geom, spectral)
+    return replace(best_of(targets, geom, wanted, known_values(surface, spectral), over), spectral=spectral)
 
 
-def best_of(laws: Mapping[str, Law], geom: Geometry, wanted: np.ndarray, known: Mapping | None, over: str) -> Choice:
+def best_of(
+    targets: Mapping[str, TargetModel], geom: Geometry, wanted: np.ndarray, known: Mapping | None, over: str
+) -> Choice:
     """The same for directions and wanted values that are there already."""
-    best = None
-    for name, law in laws.items():
-        values = _as_known(law, known, geom, wanted) if law.parameters else {}
-        values = fit(law, wanted, geom).values if values is None else values
-        values = _written(law, values, wanted.shape[1])
-        rms = rms_ln(law.at(geom, values), wanted)
-        if best is None or rms * SIMPLER + 1e-9 < best.rms_ln:
-            best = Choice(name, {**law.fixed, **values}, rms, int(np.isfinite(wanted).any(axis=1).sum()), over)
-    return best
+    directions = int(np.isfinite(wanted).any(axis=1).sum())
+    found: list[Choice] = []
+    for name, target in targets.items():
+        values = _as_known(target, known, geom, wanted) if target.parameters else {}
+        values = refit(target, wanted, geom).values if values is None else values
+        values = _written(target, values, wanted.shape[1])
+        rms = rms_ln(target.at(geom, values), wanted)
+        if not found or rms * SIMPLER + 1e-9 < found[-1].rms_ln:
+            brdf = partial(target.at, values=values)
+            found.append(Choice(name, {**target.fixed, **values}, rms, directions, over, brdf))
+    return found[-1]
 
 
-def _as_known(law: Law, known: Mapping | None, geom, wanted):
+def _as_known(target: TargetModel, known: Mapping | None, geom, wanted):
     """The model's own values, if the law takes exactly these and then equals the model."""
     if known is None:
         return None
-    values = {p.name: known.get(p.name) for p in law.parameters}
-    if any(value is None or np.any(value < p.low) or np.any(value > p.high) for p, value in zip(law.parameters, values.values())):
+    values = {p.name: known.get(p.name) for p in target.parameters}
+    if any(
+        value is None or np.any(value < p.low) or np.any(value > p.high)
+        for p, value in zip(target.parameters, values.values(), strict=True)
+    ):
         return None
-    return values if rms_ln(law.at(geom, values), wanted) <= EXACT / 10 else None
+    return values if rms_ln(target.at(geom, values), wanted) <= EXACT / 10 else None
 
 
-def _written(law: Law, values: Mapping, colours: int) -> dict:
+def _written(target: TargetModel, values: Mapping, colours: int) -> dict:
     """Nine digits, within the bounds, per-channel ones for each colour."""
-    written = {}
-    for p in law.parameters:
+    written: dict[str, np.ndarray | float] = {}
+    for p in target.parameters:
         if p.per_channel:
-            written[p.name] = np.array(numbers(np.broadcast_to(np.ravel(values[p.name]), (colours,)), p.low, p.high, p.name))
+            written[p.name] = np.array(
+                numbers(np.broadcast_to(np.ravel(values[p.name]), (colours,)), p.low, p.high, p.name)
+            )
         else:
             written[p.name] = number(np.ravel(values[p.name])[0], p.low, p.high, p.name)
     return written
 
 
-def own_values(surface: Surface, spectral: bool = False) -> dict | None:
-    """albedo, scale, n, k by colour and alpha, of a Lambertian body and at most one facet lobe; None for other surfaces."""
-    lobes = [term for term in surface.model.terms if term.model.name in FACETS]
-    bodies = [term for term in surface.model.terms if term.model.name == "lambertian"]
-    others = [term for term in surface.model.terms if term.model.name not in FACETS | {"lambertian", "mirror"}]
-    if len(lobes) > 1 or len(bodies) > 1 or others:
+def known_values(surface: ColouredSurface, spectral: bool = False) -> dict | None:
+    """albedo, scale, n, k by colour and alpha, of a Lambertian body and at most one facet lobe; else None."""
+    finite = [term for term in surface.model.terms if not term.model.is_mirror]
+    bodies = [term for term in finite if term.model.name == "lambertian"]
+    lobes = [term for term in finite if term.model.defaults().keys() == FACETS]
+    if len(lobes) > 1 or len(bodies) > 1 or len(lobes) + len(bodies) < len(finite):
         return None
-    by_colour = (lambda value: np.broadcast_to(np.ravel(value), (len(surface.channels),))) if spectral else surface.linear
-    values = {"albedo": by_colour(surface.of(bodies[0].label)["albedo"]) if bodies else by_colour(0.0)}
+    by_colour = (
+        (lambda value: np.broadcast_to(np.ravel(value), (len(surface.channels),))) if spectral else surface.linear
+    )
+    values: dict = {"albedo": by_colour(surface.values_of(bodies[0])["albedo"]) if bodies else by_colour(0.0)}
+    values["base_color"] = values["albedo"]  # as shaders call it
     if lobes:
-        own = surface.of(lobes[0].label)
-        values["scale"] = by_colour(own["scale"])
+        of_lobe = surface.values_of(lobes[0])
+        values["scale"] = by_colour(of_lobe["scale"])
         for name in ("n", "k"):
-            values[name] = by_colour(own[name]) if spectral else surface.nonlinear(own[name])
-        values["alpha"] = np.ravel(own["alpha"])[0] if np.ptp(own["alpha"]) == 0 else None
+            values[name] = by_colour(of_lobe[name]) if spectral else surface.nonlinear(of_lobe[name])
+        values["alpha"] = np.ravel(of_lobe["alpha"])[0] if np.ptp(of_lobe["alpha"]) == 0 else None
         values["amount"] = 1.0 if not bodies and np.all(values["scale"] == 1) else None
     return values
 
 
-def fresnel_index(surface: Surface, spectral: bool = False) -> tuple[np.ndarray, np.ndarray] | None:
+def fresnel_index(surface: ColouredSurface, spectral: bool = False) -> tuple[np.ndarray, ...] | None:
     """n and k by colour of the one term that has them, if these mean something in the target's colours."""
-    owners = [term for term in surface.model.terms if {"n", "k"} <= set(term.model.defaults())]
+    owners = [term for term in surface.model.terms if term.model.has_index]
     if not owners:
         return None
-    own = surface.of(owners[0].label)
+    of_term = surface.values_of(owners[0])
     if spectral:
-        return tuple(np.broadcast_to(np.ravel(own[name]), (len(surface.channels),)).astype(float) for name in ("n", "k"))
-    n, k = surface.nonlinear(own["n"]), surface.nonlinear(own["k"])
+        each = (len(surface.channels),)
+        return tuple(np.broadcast_to(np.ravel(of_term[name]), each).astype(float) for name in ("n", "k"))
+    n, k = surface.nonlinear(of_term["n"]), surface.nonlinear(of_term["k"])
     return None if n is None or k is None else (n, k)
 
 
-def has_body(surface: Surface) -> bool:
-    """Whether a diffuse body may be written: not for a bare interface."""
-    return not set(surface.laws) <= FACETS | {"he-torrance", "mirror"}
+def with_the_coat(surfaces: Sequence[ColouredSurface]) -> list[ColouredSurface]:
+    """Of candidates for one surface those that keep the mirror of a coat, where the first has one over something."""
+    terms = [term.model for term in surfaces[0].model.terms]
+    if len(terms) == 1 or not any(each.is_mirror or each.is_coat for each in terms):
+        return list(surfaces)
+    return [each for each in surfaces if each.has_mirror] or list(surfaces)
 
 
-def has_lobe(surface: Surface) -> bool:
-    return not set(surface.laws) <= BODIES | {"mirror"} or "oren-nayar" in surface.laws
+def has_body(surface: ColouredSurface) -> bool:
+    """Whether a diffuse body may be written: not for a bare interface, a shader set as a metal, or a black body."""
+    return any(_may_be_body(term.model, surface.values_of(term)) for term in surface.model.terms)
 
 
-def what_is_lost(surface: Surface) -> tuple[str, ...]:
+def _may_be_body(law: Model, values: Mapping) -> bool:
+    if "subsurface" not in law.roles or (law.is_body and np.max(values.get("albedo", 1.0)) == 0):
+        return False
+    metal = law.settings.get("metal")
+    defaults = law.defaults()
+    return metal is None or any(
+        np.any(values[name] != value) for name, value in metal.fixed.items() if value != defaults[name]
+    )
+
+
+def has_lobe(surface: ColouredSurface) -> bool:
+    """Whether a lobe may be written: for a lobe, and for a body that is not the same in all directions."""
+    finite = [term.model for term in surface.model.terms if not term.model.is_mirror]
+    return any(model.is_lobe or any(not p.linear for p in model.parameters) for model in finite)
+
+
+def what_is_lost(surface: ColouredSurface) -> tuple[str, ...]:
     """Sentences for what a body and one facet lobe cannot hold."""
     lost = []
-    lobes = [term for term in surface.model.terms if term.model.name not in BODIES | {"mirror"}]
+    lobes = [term for term in surface.model.terms if term.model.is_lobe]
     if len(lobes) > 1:
-        lost.append(f"{len(lobes)} lobes become one")
+        lost.append(f"{len(lobes)} {ONE_LOBE}")
     for term in lobes:
-        own = surface.of(term.label)
-        if term.model.name == "he-torrance":
-            lost.append("wave effects, the lobe's change of shape with angle and wavelength, become one shape")
-        if term.model.name == "lafortune" and np.any(own["tilt"] < 0):
-            lost.append("a lobe back toward the light has no counterpart")
-        shapes = [p.name for p in term.model.parameters if not p.per_channel and np.ptp(own[p.name]) > 0]
+        of_term = surface.values_of(term)
+        beyond = term.model.beyond_facets(**of_term) if term.model.beyond_facets else ""
+        lost += [beyond] if beyond else []
+        shapes = [p.name for p in term.model.parameters if not p.per_channel and np.ptp(of_term[p.name]) > 0]
         if shapes:
             lost.append(f"{', '.join(shapes)} differing between channels become one")
     return tuple(lost)

@@ -5,29 +5,46 @@ from math import pi
 
 import numpy as np
 
-from ..models.lafortune import c_xy, c_z
-from ._base import Surface, number
-from ._formulas import AFTER_SERIES, FORMULAS, HE_TORRANCE
+from ..models import Model, every
+from ..models.facts import Formula
+from ._formulas import FORMULAS, SERIES
+from .exporter import ColouredSurface, Refused, number
 
 CALL = re.compile(r"\b([a-z_][a-z0-9_]*)\(")
 BUILT_IN = {"exp", "log", "sqrt", "acos", "floor", "ceil"}
-SERIES_ARGUMENTS = "g, y, u, top, w, high"
 PREFIX = "bg_"
 
 
-def needed(expressions: list[str]) -> list[tuple[str, str, str]]:
-    """The formulas that some expressions call, directly or not, in an order that defines before use."""
-    everything = (*FORMULAS, *HE_TORRANCE, ("total", SERIES_ARGUMENTS, ""), *AFTER_SERIES)
-    wanted = {name for text in expressions for name in CALL.findall(text)}
-    for name, _, text in reversed(everything):
-        if name in wanted:
-            wanted |= set(CALL.findall(text))
-            wanted |= {"order", "trapezoid", "first_order"} if name == "total" else set()
-    wanted |= set.union(*(set(CALL.findall(text)) for name, _, text in everything if name in wanted), set())
-    for name, _, text in reversed(everything):
-        if name in wanted:
-            wanted |= set(CALL.findall(text))
-    return [formula for formula in everything if formula[0] in wanted]
+def require_formulas(target: str, surface: ColouredSurface, nearest: str) -> None:
+    """Refuses a law that states no formula, for a target that writes laws out."""
+    for term in surface.model.terms:
+        if not _written_out(term.model):
+            others = ", ".join(model.name for model in every() if _written_out(model))
+            why = f"{term.model.name} states no formula for shaders, as these laws do: {others}"
+            raise Refused(target, why, nearest)
+
+
+def _written_out(model: Model) -> bool:
+    """Whether its formula holds all of it."""
+    return model.formula is not None and bool(model.formula.mirror) == (model.mirror is not None)
+
+
+def _formula(model: Model) -> Formula:
+    if model.formula is None:
+        raise ValueError(f"{model.name} has no formula, and `require_formulas` was not asked")
+    return model.formula
+
+
+def needed(surface: ColouredSurface, expressions: list[str]) -> list[tuple[str, str, str]]:
+    """The functions that some expressions of a surface call, directly or not, in an order that defines before use."""
+    functions = dict.fromkeys(each for term in surface.model.terms for each in _formula(term.model).functions)
+    everything = (*FORMULAS, *SERIES, *functions)
+    texts = {name: text for name, _, text in everything}
+    wanted, fresh = set(), set(CALL.findall(" ".join(expressions)))
+    while fresh:
+        wanted |= fresh
+        fresh = {call for name in fresh for call in CALL.findall(texts.get(name, ""))} - wanted
+    return [each for each in everything if each[0] in wanted]
 
 
 def prefixed(text: str) -> str:
@@ -36,23 +53,23 @@ def prefixed(text: str) -> str:
     return re.sub(r"\bPI\b", f"{pi:.9g}", named)
 
 
-def real(value) -> str:
+def literal(value) -> str:
     """A number as every one of the languages reads it: with a point or an exponent."""
     text = f"{number(np.ravel(value)[0], -1e30, 1e30, 'parameter'):.9g}"
     return text if set(text) & set(".e") else text + ".0"
 
 
-def colours(surface: Surface) -> list[str]:
+def colour_expressions(surface: ColouredSurface) -> list[str]:
     """One expression in ci, cr, q, p for each of red, green and blue; one alone for a grey surface."""
     return _combined(surface, _finite)
 
 
-def mirror_colours(surface: Surface) -> list[str]:
+def mirror_colours(surface: ColouredSurface) -> list[str]:
     """The same for the reflectance of the ideal mirror, in ci."""
     return _combined(surface, _mirror)
 
 
-def _combined(surface: Surface, term_text) -> list[str]:
+def _combined(surface: ColouredSurface, term_text) -> list[str]:
     if len(surface.channels) == 1:
         return [_sum(surface, 0, term_text)]
     texts = [_sum(surface, channel, term_text) for channel in range(len(surface.channels))]
@@ -61,51 +78,32 @@ def _combined(surface: Surface, term_text) -> list[str]:
     if not surface.colour.mixes:
         return [texts[int(np.argmax(row))] for row in surface.colour.matrix]
     rows = surface.colour.matrix
-    return ["most(0.0, " + " + ".join(f"{real(weight)} * ({text})" for weight, text in zip(row, texts) if abs(weight) > 1e-6) + ")" for row in rows]
+    return [
+        "most(0.0, "
+        + " + ".join(
+            f"{literal(weight)} * ({text})" for weight, text in zip(row, texts, strict=True) if abs(weight) > 1e-6
+        )
+        + ")"
+        for row in rows
+    ]
 
 
-def _sum(surface: Surface, channel: int, term_text) -> str:
-    parts = []
-    wavelength = float(np.broadcast_to(surface.wavelength, (len(surface.channels),))[channel])
-    for term in surface.model.terms:
-        own = {name: np.ravel(value)[channel if np.size(value) > 1 else 0] for name, value in surface.of(term.label).items()}
-        text = term_text(term.model.name, own, wavelength)
-        parts += [text] if text else []
-    return " + ".join(parts) or "0.0"
+def _sum(surface: ColouredSurface, channel: int, term_text) -> str:
+    one = surface.channel(channel)
+    texts = (term_text(term.model, one.values_of(term), float(one.wavelengths[0])) for term in one.model.terms)
+    return " + ".join(filter(None, texts)) or "0.0"
 
 
-def _finite(law: str, v: dict, wavelength: float) -> str:
+def _finite(model: Model, values: dict, wavelength: float) -> str:
     """One term's BRDF with its numbers."""
-    call = lambda *numbers, of="ci, cr, q": f"{law.replace('-', '_')}({', '.join((of, *map(real, numbers)) if of else map(real, numbers))})"  # noqa: E731
-    match law:
-        case "lambertian":
-            return call(v["albedo"], of="")
-        case "coupled":
-            return call(v["albedo"], of="ci, cr")
-        case "oren-nayar":
-            return call(v["albedo"], v["spread"], of="ci, cr, p")
-        case "eon":
-            return call(v["albedo"], v["roughness"], of="ci, cr, p")
-        case "phong" | "phong-lewis" | "blinn":
-            return call(v["ks"], v["exponent"])
-        case "ward" | "ward-duer" | "ward-gmd":
-            return call(v["rho_s"], v["alpha"])
-        case "lafortune":
-            xy, z = float(c_xy(v["tilt"])), float(c_z(v["tilt"]))
-            return call(v["ks"], v["exponent"], -xy - 1, xy, z + xy)
-        case "cook-torrance" | "beckmann" | "ggx":
-            return f"{real(v['scale'])} * {call(v['alpha'], v['n'], v['k'])}"
-        case "he-torrance":
-            tau = v["sigma"] / v["slope"]
-            return f"{real(v['scale'])} * {call(v['sigma'] / wavelength, tau / wavelength, v['slope'], v['n'], v['k'])}"
-        case "mirror":
-            return ""
-    raise KeyError(f"{law} has no formula in exporters/_formulas.py")
+    return _filled(_formula(model), _formula(model).brdf, values, wavelength)
 
 
-def _mirror(law: str, v: dict, wavelength: float) -> str:
-    if law == "mirror":
-        return f"mirror(ci, {real(v['n'])}, {real(v['k'])}, {real(v['sigma'] / wavelength)})"
-    if law == "he-torrance":
-        return f"{real(v['scale'])} * he_mirror(ci, {real(v['sigma'] / wavelength)}, {real(v['slope'])}, {real(v['n'])}, {real(v['k'])})"
-    return ""
+def _mirror(model: Model, values: dict, wavelength: float) -> str:
+    """The reflectance of its mirror part."""
+    return _filled(_formula(model), _formula(model).mirror, values, wavelength)
+
+
+def _filled(formula: Formula, text: str, values: dict, wavelength: float) -> str:
+    more = formula.numbers(wavelength=wavelength, **values) if formula.numbers else {}
+    return text.format(**{name: literal(value) for name, value in {**values, **more}.items()})

@@ -1,6 +1,7 @@
 """GLSL, OSL and C share their functions of floats; what differs is the outside."""
 
-from ._dialect import CALL, SERIES_ARGUMENTS, needed, prefixed
+from ._dialect import CALL, needed, prefixed
+from .exporter import ColouredSurface
 
 TOTAL = """float bg_total({arguments})
 {{
@@ -17,14 +18,14 @@ TOTAL = """float bg_total({arguments})
 }}"""
 
 
-def functions(expressions: list[str]) -> str:
+def functions(surface: ColouredSurface, expressions: list[str]) -> str:
     """Every function that the expressions call, defined before use."""
     choose = "float bg_choose(float c, float a, float b) { return c > 0.0 ? a : b; }"
     lines = [choose]
-    for name, arguments, text in needed(expressions):
+    for name, arguments, text in needed(surface, expressions):
         floats = ", ".join(f"float {argument}" for argument in arguments.split(", "))
         if name == "total":
-            lines.append(TOTAL.format(arguments=floats, names=SERIES_ARGUMENTS))
+            lines.append(TOTAL.format(arguments=floats, names=arguments))
         else:
             lines.append(f"float bg_{name}({floats}) {{ return {prefixed(text)}; }}")
     return "\n".join(lines) if CALL.search(" ".join(expressions)) else ""

@@ -1,23 +1,25 @@
 """GLSL: `vec3 NAME_brdf(L, V, N)` [1/sr] and `vec3 NAME_mirror(cos_i)`, the model's own law with its numbers.
 
-Unit vectors, L toward the light, V toward the eye, N the normal; no cosine is included. Works from GLSL 1.30 and ES 3.0.
+Unit vectors, L toward the light, V toward the eye, N the normal; no cosine is included. Works from GLSL 1.30 and ES
+3.0.
 """
 
-from ..geometry import Geometry
-from ._base import Export, Exporter, Surface, header, identifier
-from ._dialect import colours, mirror_colours
+from ..physics.geometry import Geometry
+from ..printable import identifier
+from ._dialect import colour_expressions, mirror_colours
 from ._exact import exact_statement
 from ._shader import functions, triple
+from .exporter import ColouredSurface, Export, Exporter, comment_lines
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """GLSL text and its Statement."""
-    statement = exact_statement("glsl", surface, geom)
-    name, finite, mirror = identifier(surface.name), colours(surface), mirror_colours(surface)
-    comment = "\n".join("// " + line for line in header(surface, statement))
+    statement = exact_statement("glsl", surface, geom, "merl")
+    name, finite, mirror = identifier(surface.name), colour_expressions(surface), mirror_colours(surface)
+    comment = "\n".join("// " + line for line in comment_lines(surface, statement))
     return Export(f"""{comment}
 
-{functions(finite + mirror)}
+{functions(surface, finite + mirror)}
 
 vec3 {name}_brdf(vec3 L, vec3 V, vec3 N)
 {{
@@ -38,4 +40,4 @@ vec3 {name}_mirror(float cos_i)
 """, statement)  # fmt: skip
 
 
-EXPORTER = Exporter(__name__, ".glsl", "GLSL functions, any model exactly", export)
+EXPORTER = Exporter(__name__, ".glsl", "GLSL functions, any model with a formula exactly", export)

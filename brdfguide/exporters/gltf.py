@@ -1,53 +1,73 @@
-"""glTF 2.0: one material, metallic-roughness with KHR_materials_ior and KHR_materials_specular.
+"""glTF 2.0: one material, metallic-roughness with the extensions that its numbers ask for.
 
-alpha = roughness²; F is Schlick's. A metal has F0 = base colour and no index; a dielectric has F0 = specular times
-((ior - 1)/(ior + 1))² and F90 = specular, and its body gets what F leaves. There is no edge tint and no k.
-The law fitted is appendix B of the specification, with separable masking; viewers differ from it in details.
+The law fitted is models/gltf.py, appendix B of the specification, with separable masking; viewers differ from it in
+details. There is no edge tint and no k. A mirror beside a finite part becomes KHR_materials_clearcoat.
 """
 
 import json
 
-import numpy as np
+from ..models import term
+from ..physics.geometry import Geometry
+from ..printable import MOST_OF_A_COMMENT, short
+from ._nodes import Node, node_statement
+from .exporter import ColouredSurface, Export, Exporter, comment_lines, number, rgb_numbers
 
-from ..geometry import Geometry
-from . import _laws, _smooth
-from ._base import Export, Exporter, Surface, header, number, refuse_mirror, rgb_numbers
-from ._choice import choose, has_body, what_is_lost
-from ._smooth import choose_smooth, is_smooth
+LAW = term("gltf")
+NODE = Node(
+    law=LAW,
+    roughness="roughness",
+    metalness="metallic",
+    index="ior",
+    weight="specular",
+    edge="",
+    coat="clearcoat",
+    coat_roughness="clearcoat_roughness",
+    coat_index="",
+    matt={"specular": 0.0, "roughness": 1.0},
+    by_schlick=True,
+    grain="anisotropy_strength",
+)
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """JSON text and its Statement."""
-    laws = {"metal": _laws.gltf_metal(), "dielectric": _laws.gltf_dielectric()}
-    if has_body(surface):
-        laws = {"matt": _laws.gltf_dielectric().with_fixed(specular=0.0, n=1.5, roughness=1.0), "dielectric": laws["dielectric"]}
-    if is_smooth(surface):
-        choice, lost = choose_smooth(surface, _smooth.gltf(has_body(surface))), ()
-    else:
-        lost = refuse_mirror(surface, "gltf") + what_is_lost(surface)
-        choice = choose(surface, geom, laws)
-    statement = choice.statement("gltf", surface, lost=lost)
+    choice, statement = node_statement(NODE, "gltf", surface, geom)
     values = choice.values
-    metal = choice.name == "metal"
+    metal = bool(values["metallic"])
     material = {
-        "name": surface.name,
+        "name": short(surface.name, MOST_OF_A_COMMENT),
         "pbrMetallicRoughness": {
-            "baseColorFactor": [*rgb_numbers(values.get("albedo", 0.0), 0.0, 1.0, "baseColorFactor"), 1.0],
-            "metallicFactor": 1.0 if metal else 0.0,
-            "roughnessFactor": number(values.get("roughness", 0.0), 0.0, 1.0, "roughnessFactor"),
+            "baseColorFactor": [*rgb_numbers(values["base_color"], 0.0, 1.0, "baseColorFactor"), 1.0],
+            "metallicFactor": number(values["metallic"], 0.0, 1.0, "metallicFactor"),
+            "roughnessFactor": number(values["roughness"], 0.0, 1.0, "roughnessFactor"),
         },
-        "extras": {"brdfguide": header(surface, statement)},
+        "extras": {"brdfguide": comment_lines(surface, statement)},
     }
     document = {"asset": {"version": "2.0", "generator": "brdfguide"}, "materials": [material]}
-    if not metal:
-        specular = rgb_numbers(values["specular"], 0.0, 1.0, "specularFactor")
-        factor = max(specular)
-        extensions = {"KHR_materials_ior": {"ior": number(values["n"], 1.0, 100.0, "ior")}, "KHR_materials_specular": {"specularFactor": factor}}
-        if np.ptp(specular) > 0:
-            extensions["KHR_materials_specular"]["specularColorFactor"] = [value / factor for value in specular]
+    extensions = _extensions(values, metal)
+    if extensions:
         material["extensions"] = extensions
         document["extensionsUsed"] = sorted(extensions)
     return Export(json.dumps(document, indent=2, allow_nan=False) + "\n", statement)
 
 
-EXPORTER = Exporter(__name__, ".gltf", "glTF 2.0 metallic-roughness material with ior and specular extensions", export)
+def _extensions(values, metal: bool) -> dict:
+    """Those of the extensions that say something."""
+    found: dict = {}
+    if not metal:
+        found["KHR_materials_ior"] = {"ior": number(values["ior"], 1.0, 100.0, "ior")}
+        found["KHR_materials_specular"] = {"specularFactor": number(values["specular"], 0.0, 1.0, "specularFactor")}
+    if values["anisotropy_strength"]:
+        found["KHR_materials_anisotropy"] = {
+            "anisotropyStrength": number(values["anisotropy_strength"], 0.0, 1.0, "anisotropyStrength"),
+            "anisotropyRotation": number(values["axis"], 0.0, 3.2, "anisotropyRotation"),
+        }
+    if values["clearcoat"]:
+        found["KHR_materials_clearcoat"] = {
+            "clearcoatFactor": number(values["clearcoat"], 0.0, 1.0, "clearcoatFactor"),
+            "clearcoatRoughnessFactor": number(values["clearcoat_roughness"], 0.0, 1.0, "clearcoatRoughnessFactor"),
+        }
+    return found
+
+
+EXPORTER = Exporter(__name__, ".gltf", "glTF 2.0 metallic-roughness material with its extensions", export, grained=True)

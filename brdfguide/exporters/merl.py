@@ -8,76 +8,58 @@ view. An ideal mirror has no place in a table and is blurred; the format has non
 Source: Matusik, Pfister, Brand and McMillan 2003, "A data-driven reflectance model".
 """
 
-import struct
-from math import pi
-
 import numpy as np
 
-from ..geometry import Geometry, rows
-from ._base import EXACT, Export, Exporter, Statement, Surface
-from ._blurred import blurred
-from ._directions import chosen, off_peak, rms_ln
-
-THETA_H, THETA_D, PHI_D = 90, 90, 180
-SCALE = np.array([1.0, 1.15, 1.66]) / 1500
-NOTHING = -1.0  # below the horizon
+from ..data.formats import merl as container
+from ..physics.geometry import Geometry
+from ._directions import judged_over, off_peak, rms_ln
+from ._shown import seen_of
+from .exporter import ColouredSurface, Export, Exporter, Statement, status_of
+from .tables.blurred import blurred
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Bytes and their Statement."""
-    surface, lost = blurred(surface)
+    original, (surface, lost) = surface, blurred(surface)
     one_way = any("reciprocity" in term.model.breaks for term in surface.model.terms)
     lost += ("light and view, which this law does not exchange freely, are averaged",) if one_way else ()
-    table = _table(surface, one_way)
-    geom, wanted, over = chosen(surface, geom)
-    rms = rms_ln(np.maximum(table[_cell(geom)], 1e-300), wanted)
-    status = "lossy" if lost else "exact" if rms <= EXACT else "refit"
+    table = container.table(_of(surface, one_way))
+    geom, wanted, over = judged_over(surface, geom)
+    held = table[container.cell_of(geom, container.PHI_D)]
+    empty = np.isnan(held).any(axis=1)
+    wanted = np.where(empty[:, None], np.nan, wanted)
+    rms = rms_ln(np.maximum(held, 1e-300), wanted)
+    status = status_of(rms, lost)
     judged, truth, where = off_peak(surface.rgb)
-    off = np.abs(table[_cell(judged)] / truth - 1)
+    off = np.abs(table[container.cell_of(judged, container.PHI_D)] / truth - 1)
     usual, most = (100 * np.nanquantile(off, (0.95, 1.0))) if np.isfinite(off).any() else (0.0, 0.0)
-    notes = (f"a table, read at the nearest cell: within {usual:.1f} % of the model in 95 of 100 directions and {most:.1f} % in all, {where}",
-             "the format has no place for a comment")  # fmt: skip
-    cells = {"theta_h": THETA_H, "theta_d": THETA_D, "phi_d": PHI_D}
-    statement = Statement("merl", status, rms, int(np.isfinite(wanted).any(axis=1).sum()), over, cells, lost, notes, surface.colour.how)
-    planes = np.where(np.isfinite(table), table / SCALE, NOTHING).T
-    return Export(struct.pack("<3i", THETA_H, THETA_D, PHI_D) + np.ascontiguousarray(planes, "<f8").tobytes(), statement)
+    close = f"within {usual:.1f} % of the model in 95 of 100 directions and {most:.1f} % in all, {where}"
+    notes = [f"a table, read at the nearest cell: {close}", "the format has no place for a comment"]
+    if empty.any():
+        notes.append(
+            f"{empty.sum()} directions lie in cells whose centre is below the horizon: the table is black there"
+        )
+    cells = {"theta_h": container.THETA_H, "theta_d": container.THETA_D, "phi_d": container.PHI_D}
+    counted = int(np.isfinite(wanted).any(axis=1).sum())
+    how = surface.colour.how
+
+    def shown(geom: Geometry) -> np.ndarray:
+        return table[container.cell_of(geom, container.PHI_D)]
+
+    look = seen_of(original, shown)
+    statement = Statement("merl", status, rms, counted, over, cells, lost, tuple(notes), how, look, shown)
+    return Export(container.packed(table), statement)
 
 
-def _table(surface: Surface, one_way: bool) -> np.ndarray:
-    """(cells, 3) [1/sr], NaN below the horizon."""
-    table = np.full((THETA_H, THETA_D * PHI_D, 3), np.nan)
-    theta_d = np.radians((np.arange(THETA_D) + 0.5) * 90 / THETA_D)[:, None]
-    phi_d = np.radians((np.arange(PHI_D) + 0.5) * 180 / PHI_D)[None, :]
-    difference = [np.sin(theta_d) * np.cos(phi_d), np.sin(theta_d) * np.sin(phi_d), np.cos(theta_d) * np.ones_like(phi_d)]
-    x, y, z = (part.ravel() for part in difference)
-    for place in range(THETA_H):
-        half = np.radians((place + 0.5) ** 2 / THETA_H)
-        sin_h, cos_h = np.sin(half), np.cos(half)
-        i = np.stack((cos_h * x + sin_h * z, y, cos_h * z - sin_h * x), axis=-1)
-        r = np.stack((sin_h * z - cos_h * x, -y, cos_h * z + sin_h * x), axis=-1)
-        lit = (i[:, 2] > 0) & (r[:, 2] > 0)
-        geom = rows(Geometry.from_vectors(i[lit], r[lit]))
+def _of(surface: ColouredSurface, one_way: bool):
+    """The surface as a function of directions, light and view exchanged in half of its value where it is `one_way`; 0
+    where a colour lies outside the gamut."""
+
+    def brdf(geom: Geometry) -> np.ndarray:
         value = surface.rgb(geom)
-        if one_way:
-            value = 0.5 * (value + surface.rgb(geom.swapped()))
-        table[place, lit] = np.maximum(value, 0.0)
-    return table.reshape(-1, 3)
+        return np.maximum(0.5 * (value + surface.rgb(geom.swapped())) if one_way else value, 0.0)
+
+    return brdf
 
 
-def _cell(geom: Geometry) -> np.ndarray:
-    """The cell that a reader takes for each direction."""
-    phi = np.radians(geom.phi_deg)[:, 0]
-    sin_i, cos_i, sin_r, cos_r = (values[:, 0] for values in (geom.sin_i, geom.cos_i, geom.sin_r, geom.cos_r))
-    hx, hy, hz = sin_i + sin_r * np.cos(phi), sin_r * np.sin(phi), cos_i + cos_r
-    theta_h, phi_h = np.arctan2(np.hypot(hx, hy), hz), np.arctan2(hy, hx)
-    # the light, turned until the half vector is the normal
-    x, y = sin_i * np.cos(phi_h), -sin_i * np.sin(phi_h)
-    dx, dz = np.cos(theta_h) * x - np.sin(theta_h) * cos_i, np.sin(theta_h) * x + np.cos(theta_h) * cos_i
-    theta_d, phi_d = np.arctan2(np.hypot(dx, y), dz), np.arctan2(y, dx) % pi
-    place_h = np.minimum(np.sqrt(np.degrees(theta_h) * THETA_H).astype(int), THETA_H - 1)
-    place_d = np.minimum((np.degrees(theta_d) * THETA_D / 90).astype(int), THETA_D - 1)
-    place_phi = np.minimum((phi_d * PHI_D / pi).astype(int), PHI_D - 1)
-    return place_phi + PHI_D * (place_d + THETA_D * place_h)
-
-
-EXPORTER = Exporter(__name__, ".binary", "MERL table of any model", export)
+EXPORTER = Exporter(__name__, ".binary", "MERL table of any model", export, named=False)

@@ -2,16 +2,17 @@
 
 from xml.sax.saxutils import quoteattr
 
-from ..geometry import Geometry
-from ._base import Export, Exporter, Surface, header, identifier, xml_comment
+from ..physics.geometry import Geometry
+from ..printable import identifier
 from ._mitsuba import tree
+from .exporter import ColouredSurface, Export, Exporter, comment_lines, xml_comment
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """XML text and its Statement."""
     plugins, statement = tree(surface, geom, "mitsuba")
     body = "\n".join(_element(plugins, "bsdf", f' id={quoteattr(identifier(surface.name))} version="3.0.0"', 0))
-    return Export(f"{xml_comment(header(surface, statement))}\n{body}\n", statement)
+    return Export(f"{xml_comment(comment_lines(surface, statement))}\n{body}\n", statement)
 
 
 def _element(plugin: dict, tag: str, attributes: str, depth: int):
@@ -24,7 +25,10 @@ def _element(plugin: dict, tag: str, attributes: str, depth: int):
         if isinstance(value, dict) and value["type"] == "rgb":
             yield f'{pad}  <rgb name="{name}" value="{_spaced(value["value"])}"/>'
         elif isinstance(value, dict) and value["type"] == "srgb":
-            yield f'{pad}  <texture name="{name}" type="srgb"><rgb name="color" value="{_spaced(value["color"])}"/><boolean name="unbounded" value="true"/></texture>'
+            yield (
+                f'{pad}  <texture name="{name}" type="srgb"><rgb name="color" '
+                f'value="{_spaced(value["color"])}"/><boolean name="unbounded" value="true"/></texture>'
+            )
         elif isinstance(value, dict):
             yield from _element(value, "bsdf", "", depth + 1)
         elif isinstance(value, str):
@@ -38,4 +42,6 @@ def _spaced(values) -> str:
     return " ".join(f"{value:.9g}" for value in values)
 
 
-EXPORTER = Exporter(__name__, ".xml", "Mitsuba 3 scene element (diffuse, roughconductor, conductor, blended)", export)
+EXPORTER = Exporter(
+    __name__, ".xml", "Mitsuba 3 scene element (diffuse, roughconductor, conductor, blended)", export, grained=True
+)

@@ -1,39 +1,45 @@
-"""MaterialX: an open_pbr_surface, metal or dielectric.
+"""MaterialX: an open_pbr_surface, metal or dielectric, under a coat where a mirror stands beside a finite part.
 
-specular_roughness² is alpha. A metal's base_color is F0 and its specular_color the reflectance at 82 degrees relative
-to Schlick's; a dielectric's body gets what the lobe leaves. OpenPBR adds the light scattered between facets, which no
-law of the guide has; and it dims a body at grazing even under an index of 1. The law fitted is the one in MaterialX's own nodes.
+The law fitted is models/openpbr.py, MaterialX's own nodes; its other published reading is evaluated with the same
+numbers. It dims a body at grazing even under an index of 1.
 """
 
-from ..geometry import Geometry
-from . import _laws, _smooth
-from ._base import Export, Exporter, Surface, refuse_mirror
-from ._choice import choose, has_body, what_is_lost
-from ._materialx import colour3, document, real, shader
-from ._smooth import choose_smooth, is_smooth
+from ..models import term
+from ..physics.geometry import Geometry
+from ._materialx import colour3, float_value, materialx_document, shader
+from ._nodes import Node, node_statement
+from .exporter import ColouredSurface, Export, Exporter
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+LAW = term("openpbr")
+NODE = Node(
+    law=LAW,
+    roughness="specular_roughness",
+    metalness="base_metalness",
+    index="specular_ior",
+    weight="specular_weight",
+    edge="specular_color",
+    coat="coat_weight",
+    coat_roughness="coat_roughness",
+    coat_index="coat_ior",
+    matt={"specular_ior": 1.0},
+    under_rough_coat=False,
+    grain="specular_roughness_anisotropy",
+)
+COLOURS = ("base_color", "specular_color", "coat_color")
+ALWAYS = ("base_metalness", "specular_roughness", "specular_ior")
+
+
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """MaterialX text and its Statement."""
-    dielectric = _laws.openpbr_dielectric()
-    if is_smooth(surface):
-        choice, lost = choose_smooth(surface, _smooth.openpbr(has_body(surface))), ()
-    else:
-        laws = {"metal": _laws.openpbr_metal(), "dielectric": dielectric}
-        laws = {"matt": dielectric.with_fixed(n=1.0), "dielectric": dielectric} if has_body(surface) else laws
-        lost = refuse_mirror(surface, "openpbr") + what_is_lost(surface)
-        choice = choose(surface, geom, laws)
-    statement = choice.statement("openpbr", surface, lost=lost)
-    values = choice.values
-    inputs = {
-        "base_color": colour3(values.get("albedo", 0.0), 0.0, 1.0, "base_color"),
-        "base_metalness": real(float(choice.name == "metal"), 0.0, 1.0, "base_metalness"),
-        "specular_roughness": real(values.get("roughness", 0.0), 0.0, 1.0, "specular_roughness"),
-    }
-    if choice.name == "metal":
-        inputs["specular_color"] = colour3(values["edge"], 0.0, 1.0, "specular_color")
-    else:
-        inputs["specular_ior"] = real(values["n"], 1.0, 3.0, "specular_ior")
-    return Export(document(surface, statement, shader(surface, "open_pbr_surface", inputs)), statement)
+    choice, statement = node_statement(NODE, "openpbr", surface, geom)
+    inputs = {}
+    for p in LAW.parameters:
+        value = choice.values[p.name]
+        if p.name in COLOURS:
+            inputs[p.name] = colour3(value, 0.0, 1.0, p.name)
+        elif p.name != "axis" and (value != p.default or p.name in ALWAYS):
+            inputs[p.name] = float_value(value, p.least, p.high, p.name)
+    return Export(materialx_document(surface, statement, shader(surface, "open_pbr_surface", inputs)), statement)
 
 
-EXPORTER = Exporter(__name__, ".mtlx", "MaterialX open_pbr_surface", export)
+EXPORTER = Exporter(__name__, ".mtlx", "MaterialX open_pbr_surface", export, grained=True)

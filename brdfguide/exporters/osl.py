@@ -4,21 +4,22 @@ A closure cannot hold an arbitrary law, so the shader gives the BRDF [1/sr] for 
 supplies: for light loops, ramps and textures. It goes through `oslc`.
 """
 
-from ..geometry import Geometry
-from ._base import Export, Exporter, Surface, header, identifier
-from ._dialect import colours, mirror_colours
+from ..physics.geometry import Geometry
+from ..printable import identifier
+from ._dialect import colour_expressions, mirror_colours
 from ._exact import exact_statement
 from ._shader import functions, triple
+from .exporter import ColouredSurface, Export, Exporter, comment_lines
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """OSL text and its Statement."""
-    statement = exact_statement("osl", surface, geom)
-    name, finite, mirror = identifier(surface.name), colours(surface), mirror_colours(surface)
-    comment = "\n".join("// " + line for line in header(surface, statement))
+    statement = exact_statement("osl", surface, geom, "merl")
+    name, finite, mirror = identifier(surface.name), colour_expressions(surface), mirror_colours(surface)
+    comment = "\n".join("// " + line for line in comment_lines(surface, statement))
     return Export(f"""{comment}
 
-{functions(finite + mirror)}
+{functions(surface, finite + mirror)}
 
 color {name}_brdf(vector L, vector V, vector N_)
 {{
@@ -53,4 +54,4 @@ shader {name}(
 """, statement)  # fmt: skip
 
 
-EXPORTER = Exporter(__name__, ".osl", "OSL functions and shader, any model exactly", export)
+EXPORTER = Exporter(__name__, ".osl", "OSL functions and shader, any model with a formula exactly", export)

@@ -8,10 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..geometry import Geometry
-from ._base import Export, Exporter, Surface, header, identifier, rgb_numbers
-from ._dialect import SERIES_ARGUMENTS, colours, mirror_colours, needed, prefixed
+from ..physics.geometry import Geometry
+from ..printable import identifier, word
+from ._dialect import colour_expressions, mirror_colours, needed, prefixed
 from ._exact import exact_statement
+from .exporter import ColouredSurface, Export, Exporter, comment_lines, rgb_numbers
 
 NOTE = "function materials act on light sources; reflections of other surfaces in the lobe are not followed"
 GEOMETRY = """{ light direction lx ly lz, normal, ray: cosines, |i_xy + r_xy| squared and i_xy . r_xy }
@@ -29,38 +30,56 @@ bg_nodes(t,{a}) : if(8.5 - t, bg_trapezoid(t,{a}) + bg_nodes(t + 0.6,{a}), 0);
 bg_total({a}) : if(7 - w, bg_orders(0,ceil(top + 12*w + 14 - bg_first_order(top,w)),{a}), bg_nodes(-8.4,{a}));"""
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """The .rad text, the .cal beside it, and the Statement."""
-    statement = exact_statement("radiance-cal", surface, geom, notes=(NOTE,))
-    lines, name = header(surface, statement), identifier(surface.name)
+    statement = exact_statement("radiance-cal", surface, geom, "radiance", notes=(NOTE,))
+    lines, name, file = comment_lines(surface, statement), identifier(surface.name), f"{word(stem)}.cal"
     body, rest = _without_body(surface)
-    finite, mirror = _three(colours(rest)), _three(mirror_colours(rest))
-    cal = ["{", *("  " + line.replace("{", "(").replace("}", ")") for line in lines), "}", "", "bg_choose(c,a,b) : if(c, a, b);"]
-    for formula, arguments, text in needed([*finite, *mirror, "sq(ci)"]):
+    finite, mirror = _three(colour_expressions(rest)), _three(mirror_colours(rest))
+    cal = [
+        "{",
+        *("  " + line.replace("{", "(").replace("}", ")") for line in lines),
+        "}",
+        "",
+        "bg_choose(c,a,b) : if(c, a, b);",
+    ]
+    for formula, arguments, text in needed(rest, [*finite, *mirror, "sq(ci)"]):
         arguments = arguments.replace(" ", "")
-        cal += [TOTAL.format(a=SERIES_ARGUMENTS.replace(" ", "")) if formula == "total" else f"bg_{formula}({arguments}) : {prefixed(text)};"]
+        cal += [TOTAL.format(a=arguments) if formula == "total" else f"bg_{formula}({arguments}) : {prefixed(text)};"]
     cal += ["", GEOMETRY]
-    for colour, text, shine in zip(COLOURS, finite, mirror):
-        cal += [f"bg_{colour}(ci,cr,q,p) : {prefixed(text)};",
-                f"{name}_{colour}(lx,ly,lz) = bg_lit_{colour}(bg_ci(lx,ly,lz),lx,ly,lz);",
-                f"bg_lit_{colour}(ci,lx,ly,lz) = if(ci, bg_{colour}(ci,bg_cr,bg_q(lx,ly,lz,ci + bg_cr),bg_p(lx,ly,lz)), 0);",
-                f"bg_shine_{colour}(ci) : {prefixed(shine)};", f"{name}_mirror_{colour} = bg_shine_{colour}(bg_cr);"]  # fmt: skip
+    for colour, text, shine in zip(COLOURS, finite, mirror, strict=True):
+        cal += [
+            f"bg_{colour}(ci,cr,q,p) : {prefixed(text)};",
+            f"{name}_{colour}(lx,ly,lz) = bg_lit_{colour}(bg_ci(lx,ly,lz),lx,ly,lz);",
+            (
+                f"bg_lit_{colour}(ci,lx,ly,lz) = if(ci, bg_{colour}(ci,bg_cr,bg_q(lx,ly,lz,ci + "
+                f"bg_cr),bg_p(lx,ly,lz)), 0);"
+            ),
+            f"bg_shine_{colour}(ci) : {prefixed(shine)};",
+            f"{name}_mirror_{colour} = bg_shine_{colour}(bg_cr);",
+        ]
     functions = [f"{name}_mirror_{c}" for c in COLOURS] + ["0", "0", "0"] + [f"{name}_{c}" for c in COLOURS]
     rad = [f"# {line}" for line in lines]
-    rad += ["", f"void BRTDfunc {name}", f"10 {' '.join(functions)} {stem}.cal", "0", "9 " + " ".join(f"{value:.9g}" for value in body) + " 0 0 0 0 0 0"]
-    return Export("\n".join(rad) + "\n", statement, {".cal": "\n".join(cal) + "\n"})
+    rad += [
+        "",
+        f"void BRTDfunc {name}",
+        f"10 {' '.join(functions)} {file}",
+        "0",
+        "9 " + " ".join(f"{value:.9g}" for value in body) + " 0 0 0 0 0 0",
+    ]
+    return Export("\n".join(rad) + "\n", statement, {file: "\n".join(cal) + "\n"})
 
 
 COLOURS = ("red", "green", "blue")
 
 
-def _without_body(surface: Surface) -> tuple[list[float], Surface]:
+def _without_body(surface: ColouredSurface) -> tuple[list[float], ColouredSurface]:
     """The Lambertian body's colour and the surface without it."""
     bodies = [term for term in surface.model.terms if term.model.name == "lambertian"]
-    if len(bodies) != 1 or np.any(surface.linear(surface.of(bodies[0].label)["albedo"]) > 1):
+    if len(bodies) != 1 or np.any(surface.linear(surface.values_of(bodies[0])["albedo"]) > 1):
         return [0.0, 0.0, 0.0], surface  # a colour brighter than white stays in the function
+    colour = rgb_numbers(surface.linear(surface.values_of(bodies[0])["albedo"]), 0.0, 1.0, "diffuse")
     label = bodies[0].label
-    colour = rgb_numbers(surface.linear(surface.of(label)["albedo"]), 0.0, 1.0, "diffuse")
     rest = replace(surface.model, terms=tuple(term for term in surface.model.terms if term.label != label))
     values = {key: value for key, value in surface.values.items() if not key.startswith(label + ".")}
     return colour, replace(surface, model=rest, values=values)
@@ -70,4 +89,6 @@ def _three(expressions: list[str]) -> list[str]:
     return expressions * (3 if len(expressions) == 1 else 1)
 
 
-EXPORTER = Exporter(__name__, ".rad", "Radiance function material and .cal, any model exactly for light sources", export)
+EXPORTER = Exporter(
+    __name__, ".rad", "Radiance function material and .cal, any model with a formula exactly for light sources", export
+)

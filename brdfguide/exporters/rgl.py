@@ -6,22 +6,38 @@ table and is blurred. Spectral variants and pbrt want the target rgl-spectral: o
 
 import numpy as np
 
-from ..geometry import Geometry
-from ._base import EXACT, Export, Exporter, Statement, Surface, header
-from ._blurred import blurred
-from ._directions import chosen
-from ._tensor import best_table, fields, packed
+from ..physics.geometry import Geometry
+from ._directions import judged_over
+from ._shown import seen_of
+from .exporter import ColouredSurface, Export, Exporter, Statement, comment_lines, status_of
+from .tables.blurred import blurred
+from .tables.tensor import best_table, packed, table_fields
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Bytes and their Statement."""
-    surface, lost = blurred(surface)
-    geom, wanted, over = chosen(surface, geom)
+    original, (surface, lost) = surface, blurred(surface)
+    geom, wanted, over = judged_over(surface, geom)
     made = best_table(lambda directions: np.maximum(surface.rgb(directions), 0.0), geom, wanted)
     shape = {"theta_i": len(made.grid.theta_i), "half_vectors": made.grid.size**2}
-    status = "lossy" if lost else "exact" if made.rms_ln <= EXACT else "refit"
-    statement = Statement("rgl", status, made.rms_ln, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, (made.note,), surface.colour.how)
-    return Export(packed(fields(made.grid, made.spectra, "\n".join(header(surface, statement)), "rgb")), statement)
+    status = status_of(made.rms_ln, lost)
+    shown = made.read
+    statement = Statement(
+        "rgl",
+        status,
+        made.rms_ln,
+        int(np.isfinite(wanted).any(axis=1).sum()),
+        over,
+        shape,
+        lost,
+        (made.note,),
+        surface.colour.how,
+        seen_of(original, shown),
+        shown,
+    )
+    return Export(
+        packed(table_fields(made.grid, made.spectra, "\n".join(comment_lines(surface, statement)), "rgb")), statement
+    )
 
 
 EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor, RGB: any model in Mitsuba's measured plugin", export)

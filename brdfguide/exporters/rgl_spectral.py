@@ -6,33 +6,59 @@ Red, green and blue stand at their nominal wavelengths, between which a reader i
 
 import numpy as np
 
-from ..geometry import Geometry
-from ._base import EXACT, Export, Exporter, Refused, Statement, Surface, header
-from ._blurred import blurred
-from ._directions import chosen
-from ._tensor import best_table, fields, packed
+from ..physics.geometry import Geometry
+from ._directions import judged_over
+from ._shown import seen_of
+from .exporter import ColouredSurface, Export, Exporter, Refused, Statement, comment_lines, status_of
+from .tables.blurred import blurred
+from .tables.tensor import best_table, packed, table_fields
 
 VISIBLE_NM = np.array([360.0, 830.0])
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Bytes and their Statement."""
-    surface, lost = blurred(surface)
-    geom, wanted, over = chosen(surface, geom, spectral=True)
-    nm = 1e3 * np.broadcast_to(np.asarray(surface.wavelength, float), (len(surface.channels),))
+    original, (surface, lost) = surface, blurred(surface)
+    geom, wanted, over = judged_over(surface, geom, spectral=True)
+    nm = 1e3 * surface.wavelengths
     if len(set(nm.tolist())) < len(nm):
         raise Refused("rgl-spectral", f"channels {', '.join(surface.channels)} have no wavelengths of their own", "rgl")
     if surface.colour.named and len(nm) > 1:
-        lost += (f"{', '.join(surface.channels)} stand at {', '.join(f'{each:g}' for each in nm)} nm, so that hues are approximate",)
+        lost += (
+            (
+                f"{', '.join(surface.channels)} stand at {', '.join(f'{each:g}' for each in nm)} nm, so that hues "
+                f"are approximate"
+            ),
+        )
     order = np.argsort(nm)
     made = best_table(surface.spectral, geom, wanted)
     spectra, nm = made.spectra[:, order], nm[order]
     if len(nm) == 1:
         spectra, nm = np.repeat(spectra, 2, axis=1), VISIBLE_NM
     shape = {"theta_i": len(made.grid.theta_i), "half_vectors": made.grid.size**2, "wavelengths": len(nm)}
-    status = "lossy" if lost else "exact" if made.rms_ln <= EXACT else "refit"
-    statement = Statement("rgl-spectral", status, made.rms_ln, int(np.isfinite(wanted).any(axis=1).sum()), over, shape, lost, (made.note,), "wavelengths as they are")
-    return Export(packed(fields(made.grid, spectra, "\n".join(header(surface, statement)), "spectra", nm)), statement)
+    status = status_of(made.rms_ln, lost)
+
+    def shown(geom: Geometry) -> np.ndarray:
+        return made.read(geom) @ surface.colour.matrix.T
+
+    statement = Statement(
+        "rgl-spectral",
+        status,
+        made.rms_ln,
+        int(np.isfinite(wanted).any(axis=1).sum()),
+        over,
+        shape,
+        lost,
+        (made.note,),
+        "wavelengths as they are",
+        seen_of(original, shown),
+        shown,
+    )
+    return Export(
+        packed(table_fields(made.grid, spectra, "\n".join(comment_lines(surface, statement)), "spectra", nm)), statement
+    )
 
 
-EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor by wavelength: any model in pbrt's and spectral Mitsuba's measured", export)
+EXPORTER = Exporter(
+    __name__, ".bsdf", "RGL tensor by wavelength: any model in pbrt's and spectral Mitsuba's measured", export
+)

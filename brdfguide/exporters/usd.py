@@ -5,24 +5,26 @@ dielectrics alike; the metallic one would tie F0 to the base colour or to one in
 open: the one fitted is MaterialX's definition of the same shader.
 """
 
-from ..geometry import Geometry
-from . import _laws, _smooth
-from ._base import Export, Exporter, Surface, header, identifier, number, refuse_mirror, rgb_numbers
+from ..physics.geometry import Geometry
+from ..printable import identifier
+from . import _smooth, _target_models
 from ._choice import choose, has_body, what_is_lost
 from ._smooth import choose_smooth, is_smooth
+from .exporter import ColouredSurface, Export, Exporter, comment_lines, number, refuse_mirror, rgb_numbers
 
 
-def export(surface: Surface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Text (.usda) and its Statement."""
-    law = _laws.usd_specular()
+    target = _target_models.usd_specular()
+    lost: tuple[str, ...] = ()
     if is_smooth(surface):
-        choice, lost = choose_smooth(surface, _smooth.usd(has_body(surface))), ()
+        choice = choose_smooth(surface, _smooth.usd(has_body(surface)))
     else:
         lost = refuse_mirror(surface, "usd") + what_is_lost(surface)
-        choice = choose(surface, geom, {"specular": law if has_body(surface) else law.with_fixed(albedo=0.0)})
+        choice = choose(surface, geom, {"specular": target if has_body(surface) else target.with_fixed(albedo=0.0)})
     statement = choice.statement("usd", surface, lost=lost)
     values, name = choice.values, identifier(surface.name)
-    comment = "\n".join("# " + line for line in header(surface, statement))
+    comment = "\n".join("# " + line for line in comment_lines(surface, statement))
     diffuse = rgb_numbers(values.get("albedo", 0.0), 0.0, 1.0, "diffuseColor")
     specular = rgb_numbers(values["f0"], 0.0, 1.0, "specularColor")
     roughness = number(values.get("roughness", 0.0), 0.0, 1.0, "roughness")

@@ -2,28 +2,31 @@
 
     S(g, y) = sum over m >= 1 of  g^m e^-g / (m! m) · e^(-y/m),     y = (2π tau/λ)² |v_xy|² / 4
 
-The logarithms of the terms are concave in m, so there is one hump. With u = W(2y/g²)/2 its top is m* = g e^u
-and its width w = √(m*/(1 + 2u)). A narrow hump is summed over its whole numbers. A wide one is as good as its
-integral, to exp(-2π²w²), which needs few nodes in t, m = m* (1 + wt/(p m*))^p, p = 3/2 + 3u, where the hump has no skew.
+The logarithms of the terms are concave in m, so the summand has one peak. With u = W(2y/g²)/2 its top is m* = g e^u
+and its width w = √(m*/(1 + 2u)). A narrow peak is summed over its whole numbers. A wide one is as good as its
+integral, to exp(-2π²w²), which needs few nodes in t, m = m* (1 + wt/(p m*))^p, p = 3/2 + 3u, where the peak has no
+skew.
 """
 
 from math import factorial, log, pi
 
 import numpy as np
 
-from ..special import horner, lambert_w
+from ..numerics.special import horner, lambert_w
 
-WIDE = 7.0  # hump width from which the integral stands for the sum
+WIDE = 7.0  # width of the peak from which the integral stands for the sum
 NODES = np.arange(-8.4, 8.41, 0.6)
 PSI = tuple((j - 1) / factorial(j) for j in range(2, 16))
 STIRLING = (1 / 12, -1 / 360, 1 / 1260, -1 / 1680)
 LONGEST = 4096
-LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)))]) + np.log(np.maximum(np.arange(LONGEST), 1))
+LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)))]) + np.log(
+    np.maximum(np.arange(LONGEST), 1)
+)
 
 
 def by_terms(g, y, derivatives: bool = True):
     """ln S to 3e-13, with its derivatives by ln g and by y: three rows, or one. Takes flat g > 0 and y >= 0."""
-    u, top, width = hump(g, y)
+    u, top, width = peak_of_summand(g, y)
     result = np.empty((3 if derivatives else 1, g.size))
     order = np.argsort(width, kind="stable")
     first_wide = np.searchsorted(width[order], WIDE)
@@ -36,8 +39,8 @@ def by_terms(g, y, derivatives: bool = True):
     return result
 
 
-def hump(g, y):
-    """Where the hump is: u, its top m* and its width."""
+def peak_of_summand(g, y):
+    """Where the peak of the summand is: u, its top m* and its width."""
     scale = np.maximum(g, 1e-120)  # squared without underflow; this only places windows and nodes
     u = 0.5 * lambert_w(2 * (y / scale) / scale)
     top = scale * np.exp(u)
@@ -45,18 +48,26 @@ def hump(g, y):
 
 
 def _over_orders(g, y, top, width, derivatives):
-    """The sum over the whole numbers around a narrow hump."""
+    """The sum over the whole numbers around a narrow peak."""
     first = np.maximum(np.floor(top - 8.5 * width - 2), 1).astype(int)
     count = int(np.ceil(np.max(top + 12 * width + 14 - first)))
     m = first[:, None] + np.arange(count)
-    exponent = m * np.log(g)[:, None] - LN_FACTORIAL_M[m] - y[:, None] / m
+    exponent = m * np.log(g)[:, None] - _ln_factorial_m(m) - y[:, None] / m
     highest, term, total = _scaled(exponent)
     value = highest - g + np.log(total)
     return (value, (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total) if derivatives else (value,)
 
 
+def _ln_factorial_m(m):
+    """ln(m! m), beyond the table by Stirling's series."""
+    if m.max(initial=0) < LONGEST:
+        return LN_FACTORIAL_M[m]
+    known = LN_FACTORIAL_M[np.minimum(m, LONGEST - 1)]
+    return np.where(m < LONGEST, known, (m + 1.5) * np.log(m) - m + 0.5 * log(2 * pi) + 1 / (12 * m))
+
+
 def _integral(g, y, u, top, width, derivatives):
-    """The trapezoidal rule over a wide hump; the exponent by differences that lose no digits at g = 1e8."""
+    """The trapezoidal rule over a wide peak; the exponent by differences that lose no digits at g = 1e8."""
     p = (1.5 + 3 * u)[:, None]
     ln_stretch = np.log1p(width[:, None] / (p * top[:, None]) * NODES)
     l = u[:, None] + p * ln_stretch  # noqa: E741  ln(m/g)
@@ -69,7 +80,11 @@ def _integral(g, y, u, top, width, derivatives):
     exponent = -g * psi - y[:, None] * one_over_m - 1.5 * l - stirling + (p - 1) * ln_stretch
     highest, term, total = _scaled(exponent)
     value = highest + np.log(total * (NODES[1] - NODES[0])) + np.log(width) - 1.5 * np.log(g[:, 0]) - 0.5 * log(2 * pi)
-    return (value, (term * (g * np.expm1(l))).sum(axis=1) / total, -(term * one_over_m).sum(axis=1) / total) if derivatives else (value,)
+    return (
+        (value, (term * (g * np.expm1(l))).sum(axis=1) / total, -(term * one_over_m).sum(axis=1) / total)
+        if derivatives
+        else (value,)
+    )
 
 
 def _scaled(exponent):

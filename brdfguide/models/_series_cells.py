@@ -11,17 +11,24 @@ from math import log
 
 import numpy as np
 
-from ._series import by_terms, hump
+from ._series import by_terms, peak_of_summand
 
-TAIL, NOISE = 1e-12, 4e-15  # Chebyshev coefficients below it, and below this share of |ln S|, are dropped
+TAIL = 1e-12  # of ln S: smaller Chebyshev coefficients are dropped
+NOISE = 4e-15  # of the largest |ln S| of a cell: below it coefficients are rounding, and are dropped
 SIZES = ((12, 16), (20, 20))  # nodes along g and along y, tried in turn
-G_FIRST, OCTAVES_G, OCTAVES_Y, PARTS = -42, 70, 16, 8
-OUTSIDE = 2**16 - 1
+G_FIRST = -42  # log2 of the least g that has a cell
+OCTAVES_G = 70  # of g that have cells
+OCTAVES_Y = 16  # of 1 + y/max(g, 4) that have cells
+PARTS = 8  # most into which an octave of the second is divided
+OUTSIDE = 2**16 - 1  # the number of what lies in no cell
 BLOCK = 4096  # samples at once, so that they stay in the processor's cache
 
 
 def ln_series(g, y, derivatives: bool = False):
-    """ln S to 1e-11, for g > 0 and y >= 0, which broadcast. With `derivatives`: (ln S, d ln S/d ln g, d ln S/dy), these to 1e-8."""
+    """ln S to 1e-11, for g > 0 and y >= 0, which broadcast.
+
+    With `derivatives`: (ln S, d ln S/d ln g, d ln S/dy), these to 1e-8.
+    """
     g, y = np.broadcast_arrays(np.asanyarray(g, float), np.asanyarray(y, float), subok=True)
     shape, g, y = g.shape, g.ravel(), y.ravel()
     code, t_g, t_y = np.empty(g.size, np.uint16), np.empty_like(g), np.empty_like(g)
@@ -33,7 +40,10 @@ def ln_series(g, y, derivatives: bool = False):
     starts = np.flatnonzero(np.diff(code, prepend=-1))
     touched = code[starts].tolist()
     _fill([each for each in touched if each not in CELLS])
-    groups = [(CELLS[each], start, stop) for each, start, stop in zip(touched, starts.tolist(), [*starts[1:].tolist(), code.size])]
+    groups = [
+        (CELLS[each], start, stop)
+        for each, start, stop in zip(touched, starts.tolist(), [*starts[1:].tolist(), code.size], strict=True)
+    ]
     out = np.empty((3 if derivatives else 1, code.size))
     _evaluate([group for group in groups if group[0] is not None], t_g, t_y, out)
     if derivatives:
@@ -68,15 +78,17 @@ def _places(g, y):
 
 
 def _split():
-    """Parts of each octave: the humps of neighbouring orders stand apart by π/u in ln y."""
+    """Parts of each octave: the peaks of neighbouring orders stand apart by π/u in ln y."""
     g = 2.0 ** np.arange(G_FIRST, G_FIRST + OCTAVES_G)[:, None]
     y = (2.0 ** (np.arange(OCTAVES_Y) + 0.3) - 1) * np.maximum(g, 4)
-    u = hump(np.broadcast_to(g, y.shape), y)[0]
+    u = peak_of_summand(np.broadcast_to(g, y.shape), y)[0]
     return np.select([u < 1.3, u < 4.5, u < 9], [1.0, 2.0, 4.0], 8.0).ravel()
 
 
 SPLIT = _split()
-CELLS: dict[int, np.ndarray | None] = {OUTSIDE: None}  # ln S and its slopes by t_g and t_y: powers of t_y in rows, of t_g in columns; None: not resolved
+CELLS: dict[int, np.ndarray | None] = {
+    OUTSIDE: None
+}  # ln S and its slopes by t_g and t_y: powers of t_y in rows, of t_g in columns; None: not resolved
 
 
 def _fill(codes):
@@ -94,7 +106,9 @@ def _fill(codes):
         values = by_terms(g.ravel(), y.ravel(), derivatives=False)[0].reshape(g.shape)
         by_g, by_y = (_transform(count) for count in size)
         tails = TAIL + NOISE * np.abs(values).max(axis=(1, 2))
-        CELLS.update((code, _powers(each, tail)) for code, each, tail in zip(codes, by_g @ values @ by_y.T, tails))
+        CELLS.update(
+            (code, _powers(each, tail)) for code, each, tail in zip(codes, by_g @ values @ by_y.T, tails, strict=True)
+        )
         codes = [code for code in codes if CELLS[code] is None]
 
 
@@ -107,7 +121,8 @@ def _transform(count):
 
 
 def _powers(chebyshev, tail):
-    """Coefficients of powers from Chebyshev's, without their tail, and of both derivatives; None if the tail has not died out."""
+    """Coefficients of powers from Chebyshev's, without their tail, and of both derivatives; None if the tail has not
+    died out."""
     large = np.abs(chebyshev) > tail
     n_g, n_y = (np.flatnonzero(large.any(axis=axis)).max() + 1 for axis in (1, 0))
     if n_g > len(chebyshev) - 2 or n_y > chebyshev.shape[1] - 2:
@@ -131,11 +146,15 @@ def _to_powers(n):
 def _evaluate(groups, t_g, t_y, out):
     """The polynomials into out[0]; their derivatives by t_g and t_y into out[1] and out[2] where these exist.
 
-    Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand products.
-    Never for one sample alone, whose last digits would be summed in another order than among others.
+    Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand
+    products. Never for one sample alone, whose last digits would be summed in another order than among others.
     """
     for first in range(0, t_g.size, BLOCK):
-        here = [(cell, max(start, first) - first, min(stop, first + BLOCK) - first) for cell, start, stop in groups if start < first + BLOCK and stop > first]
+        here = [
+            (cell, max(start, first) - first, min(stop, first + BLOCK) - first)
+            for cell, start, stop in groups
+            if start < first + BLOCK and stop > first
+        ]
         if not here:
             continue
         (_, most_y, most_g), part = np.max([cell.shape for cell, *_ in here], axis=0), slice(first, first + BLOCK)

@@ -1,12 +1,14 @@
 """What shadows do to He and Torrance's lobe, and the lobe without what a scene may not need."""
 
+from functools import lru_cache, partial
 from math import pi, sqrt
 
 import numpy as np
 
-from .. import optics
-from ..geometry import Geometry, once
-from ..special import erfcx, lambert_w
+from ..formed import formed
+from ..numerics.special import erfcx, lambert_w
+from ..physics import fresnel as optics
+from ..physics.geometry import Directions, Geometry
 from ._series_cells import ln_series
 
 BLOCK = 4096
@@ -19,13 +21,17 @@ def shadowing(cos, sin, slope, derivatives=False):
     """
     steep = np.maximum(2 * slope * sin, cos / 26)
     nu = cos / steep
-    bell = np.exp(-nu * nu)
+    gaussian = np.exp(-nu * nu)
     erfc = erfcx(nu)
-    erfc *= bell
+    erfc *= gaussian
     visible = sqrt(pi) * (2 - erfc)
-    by_slope = (-bell * (2 * nu / visible + 1 / (nu * visible + bell)), bell / (sqrt(pi) * slope)) if derivatives else ()
+    by_slope = (
+        (-gaussian * (2 * nu / visible + 1 / (nu * visible + gaussian)), gaussian / (sqrt(pi) * slope))
+        if derivatives
+        else ()
+    )
     nu *= visible
-    nu += bell
+    nu += gaussian
     nu *= steep
     visible /= nu
     erfc *= sin / cos
@@ -49,35 +55,41 @@ def shadow_free(spread):
     return left
 
 
-def fresnel(geom, n, k):
-    """F(θd), kept with the directions until the index changes: a search for sigma and slope asks for it again and again."""
-    key = "fresnel of the last index"
+def kept_fresnel(geom, n, k):
+    """F(θd), kept with the directions until the index changes: a search for sigma and slope asks for it again and
+    again."""
     if np.ndim(n) or np.ndim(k):
         return optics.fresnel(geom.cos_d, n, k)
-    if geom.__dict__.get(key, (None,))[0] != (n, k):
-        geom.__dict__[key] = (n, k), optics.fresnel(geom.cos_d, n, k)
-    return geom.__dict__[key][1]
+    return _fresnel_of_index(geom)(float(n), float(k))
 
 
-@once
-def height_factor(geom):
+@formed
+def _fresnel_of_index(to: Directions):
+    """F(θd) as a function of n and k that remembers its last answer."""
+    return lru_cache(maxsize=1)(partial(optics.fresnel, to.cos_d))
+
+
+@formed
+def height_factor(to: Directions) -> np.ndarray:
     """(|i + r|²/v_z)², what is left of G with unit vectors."""
-    return (geom.v2 / geom.v_z) ** 2
+    return (to.v2 / to.v_z) ** 2
 
 
 def in_blocks(parts, geom, *values):
     """`parts(geom, *values)`, for long arrays piece by piece, so that what it forms on the way stays in the cache."""
     if len(geom.shape) != 1 or len(geom) <= BLOCK or any(np.ndim(value) for value in (*values, geom.wavelength)):
         return parts(geom, *values)
-    return tuple(map(np.concatenate, zip(*(parts(piece, *values) for piece in pieces(geom)))))
+    found = [parts(Geometry(piece, geom.wavelength), *values) for piece in pieces(geom)]
+    return tuple(map(np.concatenate, zip(*found, strict=True)))
 
 
-@once
-def pieces(geom):
-    return tuple(piece for _, piece in geom.blocks(BLOCK))
+@formed
+def pieces(to: Directions) -> tuple[Directions, ...]:
+    """Directions of so many rows that what is formed from them stays in the processor's cache."""
+    return tuple(to[start : start + BLOCK] for start in range(0, len(to), BLOCK))
 
 
-def reduced(*out: str):
+def law_without(*out: str):
     """The law without some of
 
     fresnel    F at normal incidence instead of F(θd)
@@ -93,7 +105,7 @@ def reduced(*out: str):
             shadow_i, spread_i = shadowing(geom.cos_i, geom.sin_i, slope)
             shadow_r, spread_r = shadowing(geom.cos_r, geom.sin_r, slope)
             shadow, rough = shadow_i * shadow_r, shadow_free(spread_i + spread_r)
-        f = optics.f0(n, k) if "fresnel" in out else fresnel(geom, n, k)
+        f = optics.f0(n, k) if "fresnel" in out else kept_fresnel(geom, n, k)
         g = (2 * pi * sigma / geom.wavelength * geom.v_z * rough) ** 2
         y = (pi * sigma / slope / geom.wavelength) ** 2 * geom.vxy2
         if "series" in out or "waves" in out:

@@ -13,8 +13,9 @@ from math import log, pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane
-from ._base import Extreme, Model, Parameter, Pin
+from ..physics.geometry import Geometry
+from .facts import Candidacy, Formula
+from .model import Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, *, ks, exponent) -> np.ndarray:
@@ -37,17 +38,40 @@ MODEL = Model(
     roles=("surface", "subsurface"),
     parameters=(
         Parameter("ks", 0.1, 0.0, 1.0, linear=True, per_channel=True, meaning="share of the light sent into the lobe"),
-        Parameter("exponent", 80.0, 0.1, 4e6, log=True, meaning="n: about 2/alpha² - 2 of a slope lobe", starts=(10.0, 50.0, 200.0, 1000.0, 10000.0)),
+        Parameter(
+            "exponent",
+            80.0,
+            0.1,
+            4e6,
+            log=True,
+            meaning="n: about 2/alpha² - 2 of a slope lobe",
+            starts=(10.0, 50.0, 200.0, 1000.0, 10000.0),
+        ),
     ),
     gradient=gradient,
     summary="cheap, reciprocal, lobe stretches but does not grow toward grazing: coats, plastics away from grazing",
     pins=(
-        Pin(in_plane(45, 50), {"ks": 0.3, "exponent": 133.0}, f=1.4624535444807818, source="50 digits"),
-        Pin(in_plane(70, 10), {"ks": 0.7, "exponent": 2.5}, f=0.1946978345558404, source="50 digits"),
+        Pin(at(45, 50), {"ks": 0.3, "exponent": 133.0}, f=1.4624535444807818, source="50 digits"),
+        Pin(at(70, 10), {"ks": 0.7, "exponent": 2.5}, f=0.1946978345558404, source="50 digits"),
     ),
     extremes=(
-        Extreme("narrowest lobe, 0.01° from grazing", in_plane(89.99, 89.99), {"exponent": 4e6}),
-        Extreme("lobe underflows", in_plane(10, -70), {"exponent": 4e6}, f=0.0),
+        Extreme("narrowest lobe, 0.01° from grazing", at(89.99, 89.99), {"exponent": 4e6}),
+        Extreme("lobe underflows", at(10, -70), {"exponent": 4e6}, f=0.0),
     ),
     source="Blinn 1977",
+    family="Phong",
+    cannot="does not grow toward grazing; no Fresnel, no mirror image",
+    candidacy=Candidacy(30, substitutes=True),
+    from_facets=lambda facets: {"ks": facets.f0, "exponent": facets.half_exponent},
+    formula=Formula(
+        "blinn(ci, cr, q, {ks}, {exponent})",
+        (
+            (
+                "blinn",
+                "ci, cr, q, ks, n",
+                "ks * (n + 2.0) * (n + 4.0) / (8.0 * PI * (n + exp(-0.34657359 * n)))"
+                " * exp(0.5 * n * ln1m(sin2h(ci, cr, q)))",
+            ),
+        ),
+    ),
 )

@@ -13,8 +13,10 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane, once
-from ._base import Extreme, Model, Parameter, Pin
+from ..formed import formed
+from ..physics.geometry import Directions, Geometry
+from .facts import Formula
+from .model import Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, *, albedo) -> np.ndarray:
@@ -22,10 +24,10 @@ def brdf(geom: Geometry, *, albedo) -> np.ndarray:
     return (albedo * (21 / (20 * pi))) * _both(geom)
 
 
-@once
-def _both(geom: Geometry):
+@formed
+def _both(to: Directions) -> np.ndarray:
     """In and out again."""
-    return through(geom.cos_i) * through(geom.cos_r)
+    return through(to.cos_i) * through(to.cos_r)
 
 
 def through(cos) -> np.ndarray:
@@ -42,13 +44,26 @@ MODEL = Model(
     __name__,
     brdf,
     roles=("subsurface",),
-    parameters=(Parameter("albedo", 0.5, 0.0, 1.0, linear=True, per_channel=True, meaning="light sent back at normal incidence"),),
+    parameters=(
+        Parameter(
+            "albedo", 0.5, 0.0, 1.0, linear=True, per_channel=True, meaning="light sent back at normal incidence"
+        ),
+    ),
     without={"coupling": uncoupled},
     summary="diffuse body that darkens toward grazing under its interface: plastic, varnish",
     pins=(
-        Pin(in_plane(60, -20), {"albedo": 0.4}, f=0.129512231626022307, source="the formula above at 50 digits"),
-        Pin(in_plane(89.0, 85.0), {"albedo": 0.4}, f=0.00412506578712861625, source="the formula above at 50 digits"),
+        Pin(at(60, -20), {"albedo": 0.4}, f=0.129512231626022307, source="the formula above at 50 digits"),
+        Pin(at(89.0, 85.0), {"albedo": 0.4}, f=0.00412506578712861625, source="the formula above at 50 digits"),
     ),
-    extremes=(Extreme("both 0.0001° from grazing", in_plane(89.9999, 89.9999), {"albedo": 1.0}),),
+    extremes=(Extreme("both 0.0001° from grazing", at(89.9999, 89.9999), {"albedo": 1.0}),),
     source="Shirley et al. 1997",
+    family="body",
+    cannot="no lobe toward the mirror direction",
+    formula=Formula(
+        "coupled(ci, cr, {albedo})",
+        (
+            ("through", "x", "x * (5.0 - x * (10.0 - x * (10.0 - x * (5.0 - x))))"),
+            ("coupled", "ci, cr, albedo", "albedo * 1.05 / PI * through(ci) * through(cr)"),
+        ),
+    ),
 )

@@ -15,10 +15,13 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane, once
-from ._base import Extreme, Model, Parameter, Pin
+from ..formed import formed
+from ..physics.geometry import Directions, Geometry
+from .facts import Formula
+from .model import Extreme, Model, Parameter, Pin, at
 
-C1, C2 = 1 / 2 - 2 / (3 * pi), 2 / 3 - 28 / (15 * pi)
+C1 = 1 / 2 - 2 / (3 * pi)  # c1 of A above
+C2 = 2 / 3 - 28 / (15 * pi)  # c2 of Ē above
 
 
 def brdf(geom: Geometry, *, albedo, roughness) -> np.ndarray:
@@ -55,22 +58,27 @@ def gradient(geom: Geometry, names, *, albedo, roughness) -> dict[str, np.ndarra
     }
 
 
-@once
-def _forward(geom: Geometry):
+@formed
+def _forward(to: Directions) -> np.ndarray:
     """s/t."""
-    return geom.dot_xy / np.where(geom.dot_xy > 0, np.maximum(geom.cos_i, geom.cos_r), 1.0)
+    return to.dot_xy / np.where(to.dot_xy > 0, np.maximum(to.cos_i, to.cos_r), 1.0)
 
 
-@once
-def _kept(geom: Geometry):
+@formed
+def _kept(to: Directions) -> np.ndarray:
     """(1 - E(θi)) (1 - E(θr)) / ((1 - Ē) A r) = (c1 - Gi/π) (c1 - Gr/π)/(c1 - c2), of which A r stands outside."""
-    return _lost(geom.cos_i, geom.sin_i) * _lost(geom.cos_r, geom.sin_r) / (C1 - C2)
+    return _lost(to.cos_i, to.sin_i) * _lost(to.cos_r, to.sin_r) / (C1 - C2)
 
 
 def _lost(cos, sin):
     """c1 - G/π, which goes to cos θ/π at grazing: π c1 - G with both halves taken apart by hand."""
     rest = cos * cos / (1 + sin)  # 1 - sin θ
-    return (np.arctan2(cos, sin) + np.arctan2(sin, cos) * rest + sin * sin * cos - (2 / 3) * (rest + sin * cos * (1 + sin + sin * sin) / (1 + sin))) / pi
+    return (
+        np.arctan2(cos, sin)
+        + np.arctan2(sin, cos) * rest
+        + sin * sin * cos
+        - (2 / 3) * (rest + sin * cos * (1 + sin + sin * sin) / (1 + sin))
+    ) / pi
 
 
 MODEL = Model(
@@ -85,13 +93,44 @@ MODEL = Model(
     without={"interreflection": fujii, "roughness": smooth},
     summary="rough diffusers without loss or gain of light: clay, matte paper, dust; what OpenPBR calls base diffuse",
     pins=(
-        Pin(in_plane(45, 50), {"albedo": 0.75, "roughness": 0.7}, f=0.14751454901569819, source="50 digits"),
-        Pin(in_plane(70, -40), {"albedo": 0.2, "roughness": 1.0}, f=0.089594048391691726, source="50 digits"),
-        Pin(Geometry.from_degrees(60, 10, 30, 75), {"albedo": 0.9, "roughness": 0.3}, f=0.29594689257048232, source="50 digits"),
+        Pin(at(45, 50), {"albedo": 0.75, "roughness": 0.7}, f=0.14751454901569819, source="50 digits"),
+        Pin(at(70, -40), {"albedo": 0.2, "roughness": 1.0}, f=0.089594048391691726, source="50 digits"),
+        Pin(
+            at(60, 30, phi_i=10, phi_r=75),
+            {"albedo": 0.9, "roughness": 0.3},
+            f=0.29594689257048232,
+            source="50 digits",
+        ),
     ),
     extremes=(
-        Extreme("at the normal, where the azimuth is undefined", in_plane(0, 0), {"albedo": 1.0, "roughness": 1.0}),
-        Extreme("both at grazing, toward the light", in_plane(89.99, -89.99), {"albedo": 1.0, "roughness": 1.0}),
+        Extreme("at the normal, where the azimuth is undefined", at(0, 0), {"albedo": 1.0, "roughness": 1.0}),
+        Extreme("both at grazing, toward the light", at(89.99, -89.99), {"albedo": 1.0, "roughness": 1.0}),
     ),
     source="Portsmouth, Kutz and Hill 2025",
+    family="body",
+    cannot="no lobe toward the mirror direction",
+    formula=Formula(
+        "eon(ci, cr, p, {albedo}, {roughness})",
+        (
+            (
+                "lost3",
+                "c, s, t, rest",
+                "(1.57079633 - t + t * rest + s * s * c"
+                " - 0.66666667 * (rest + s * c * (1.0 + s + s * s) / (1.0 + s))) / PI",
+            ),
+            ("lost", "c", "lost3(c, sqrt(sin2(c)), acos(c), c * c / (1.0 + sqrt(sin2(c))))"),
+            (
+                "eon2",
+                "ci, cr, p, albedo, r, a, mean",
+                "a * albedo / PI * (1.0 + r * p / choose(p, most(ci, cr), 1.0)) + a * r * albedo * albedo * mean"
+                " / (1.0 - albedo * (1.0 - mean)) / PI * lost(ci) * lost(cr) / 0.215305197",
+            ),
+            (
+                "eon",
+                "ci, cr, p, albedo, r",
+                "eon2(ci, cr, p, albedo, r, 1.0 / (1.0 + 0.287793409 * r),"
+                " (1.0 + 0.0724882125 * r) / (1.0 + 0.287793409 * r))",
+            ),
+        ),
+    ),
 )

@@ -17,11 +17,12 @@ from math import pi
 
 import numpy as np
 
-from .. import optics
-from ..geometry import Geometry, in_plane
-from ._base import Derived, Extreme, Model, Parameter, Pin
+from ..physics import fresnel as optics
+from ..physics.geometry import Geometry
 from ._series_cells import ln_series
-from ._shadows import fresnel, height_factor, in_blocks, ln_g_by_ln_slope, reduced, shadow_free, shadowing
+from ._shadows import height_factor, in_blocks, kept_fresnel, law_without, ln_g_by_ln_slope, shadow_free, shadowing
+from .facts import Candidacy, Formula
+from .model import Derived, Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, *, sigma, slope, n, k, scale) -> np.ndarray:
@@ -49,14 +50,16 @@ def gradient(geom: Geometry, names, *, sigma, slope, n, k, scale) -> dict[str, n
     bare, g, y, through_s, through_g = in_blocks(_parts, geom, sigma, slope, None, None, 1.0, True)
     ln_s, by_ln_g, by_y = ln_series(g, y, derivatives=True)
     bare = bare * np.exp(ln_s)
-    f, *by_index = optics.fresnel_with_slopes(geom.cos_d, n, k) if "n" in names or "k" in names else (fresnel(geom, n, k),)
+    f, *by_index = (
+        optics.fresnel_with_slopes(geom.cos_d, n, k) if "n" in names or "k" in names else (kept_fresnel(geom, n, k),)
+    )
     lobe = bare * f
     by_tau = 2 + 2 * y * by_y  # d ln f/d ln tau
     return {
         "scale": lobe,
         "sigma": lobe * (by_tau + 2 * by_ln_g) * (scale / sigma),
         "slope": lobe * (through_s + by_ln_g * through_g - by_tau) * (scale / slope),
-        **{name: by * bare * scale for name, by in zip("nk", by_index)},
+        **{name: by * bare * scale for name, by in zip("nk", by_index, strict=False)},
     }
 
 
@@ -73,38 +76,114 @@ def _parts(geom, sigma, slope, n, k, scale, derivatives=False):
     y = (pi * tau / geom.wavelength) ** 2 * geom.vxy2
     shadow_i *= shadow_r
     shadow_i *= height_factor(geom)
-    f = 1.0 if n is None else fresnel(geom, n, k)
+    f = 1.0 if n is None else kept_fresnel(geom, n, k)
     factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow_i
-    return (factor, g, y, by_i[0] + by_r[0], ln_g_by_ln_slope(spread, by_i[1] + by_r[1])) if derivatives else (factor, g, y)
+    return (
+        (factor, g, y, by_i[0] + by_r[0], ln_g_by_ln_slope(spread, by_i[1] + by_r[1]))
+        if derivatives
+        else (factor, g, y)
+    )
 
 
-CHEAPER = tuple((*some, *waves) for some in ((), ("fresnel",), ("masking",), ("fresnel", "masking")) for waves in ((), ("series",), ("waves",)))[1:]
+CHEAPER = tuple(
+    (*some, *waves)
+    for some in ((), ("fresnel",), ("masking",), ("fresnel", "masking"))
+    for waves in ((), ("series",), ("waves",))
+)[1:]
 
 MODEL = Model(
     __name__,
     brdf,
     parameters=(
         Parameter("sigma", 0.3, 1e-3, 50.0, "um", log=True, meaning="rms height", starts=(0.05, 0.2, 0.8)),
-        Parameter("slope", 0.1, 1e-3, 1.0, log=True, meaning="sigma/tau; half of Beckmann's alpha", starts=(0.02, 0.05, 0.1, 0.2)),
-        Parameter("n", 1.5, 1.0001, 100.0, log=True, origin=1.0, given_low=0.01, per_channel=True, meaning="refractive index", starts=(1.5, 4.0, 20.0)),
+        Parameter(
+            "slope",
+            0.1,
+            1e-3,
+            1.0,
+            log=True,
+            meaning="sigma/tau; half of Beckmann's alpha",
+            starts=(0.02, 0.05, 0.1, 0.2),
+        ),
+        Parameter(
+            "n",
+            1.5,
+            1.0001,
+            100.0,
+            log=True,
+            origin=1.0,
+            given_low=0.01,
+            per_channel=True,
+            meaning="refractive index",
+            starts=(1.5, 4.0, 20.0),
+        ),
         Parameter("k", 0.0, 0.0, 100.0, per_channel=True, free=False, meaning="absorption index"),
-        Parameter("scale", 1.0, 0.0, 1e6, linear=True, per_channel=True, free=False, meaning="1: absolute, by Fresnel's equations"),
+        Parameter(
+            "scale",
+            1.0,
+            0.0,
+            1e6,
+            linear=True,
+            per_channel=True,
+            free=False,
+            meaning="1: absolute, by Fresnel's equations",
+        ),
     ),
     gradient=gradient,
     mirror=mirror,
-    without={"+".join(out): reduced(*out) for out in CHEAPER},
+    without={"+".join(out): law_without(*out) for out in CHEAPER},
     derived=(Derived("tau", lambda sigma, slope, **_: sigma / slope, "um", "correlation length"),),
     pins=(
-        Pin(in_plane(45, 50), {"sigma": 0.28, "slope": 0.16, "n": 1.7}, f=0.147046332277233921, source="the formulas above at 50 digits"),
-        Pin(in_plane(60, 62, 0.45), {"sigma": 0.05, "slope": 0.05}, f=0.472430857758406432, source="the same, smooth"),
-        Pin(in_plane(30, 30), {"sigma": 5.0, "slope": 0.2}, f=0.0275383602920046262, source="the same, g = 9788"),
+        Pin(
+            at(45, 50),
+            {"sigma": 0.28, "slope": 0.16, "n": 1.7},
+            f=0.147046332277233921,
+            source="the formulas above at 50 digits",
+        ),
+        Pin(at(60, 62, 0.45), {"sigma": 0.05, "slope": 0.05}, f=0.472430857758406432, source="the same, smooth"),
+        Pin(at(30, 30), {"sigma": 5.0, "slope": 0.2}, f=0.0275383602920046262, source="the same, g = 9788"),
     ),
     extremes=(
-        Extreme("0.01° from grazing", in_plane(89.99, 89.99), {"sigma": 1.0}, f=2.83460397240751784e-9),
-        Extreme("both at the normal", in_plane(0, 0), {}, f=0.0813483828042643974),
-        Extreme("steepest and roughest", in_plane(89.99, -89.99), {"sigma": 50.0, "slope": 1.0}),
-        Extreme("far off the narrowest lobe", in_plane(10, -80), {"sigma": 0.001, "slope": 0.001}),
+        Extreme("0.01° from grazing", at(89.99, 89.99), {"sigma": 1.0}, f=2.83460397240751784e-9),
+        Extreme("both at the normal", at(0, 0), {}, f=0.0813483828042643974),
+        Extreme("steepest and roughest", at(89.99, -89.99), {"sigma": 50.0, "slope": 1.0}),
+        Extreme("far off the narrowest lobe", at(10, -80), {"sigma": 0.001, "slope": 0.001}),
     ),
     summary="wave optics, shadowing and an emerging mirror; slightly rough to rough metals and dielectrics, any gloss",
     source="He, Torrance, Sillion and Greenberg 1991",
+    family="wave optics",
+    cannot="one interface, Gaussian heights; an isotropic average of anything turned; slow",
+    aliases=("he",),
+    candidacy=Candidacy(100, bare=True),
+    beyond_facets=lambda **_: "wave effects, the lobe's change of shape with angle and wavelength, become one shape",
+    formula=Formula(
+        "{scale} * he_torrance(ci, cr, q, {sigma_waves}, {tau_waves}, {slope}, {n}, {k})",
+        (
+            ("steep", "c, slope", "most(2.0 * slope * sqrt(sin2(c)), c / 26.0)"),
+            ("visible2", "c, s, e, b", "(2.0 - e) * 1.7724539 / (s * (c / s * (2.0 - e) * 1.7724539 + b))"),
+            ("visible1", "c, s", "visible2(c, s, erfc0(c / s), exp(-sq(c / s)))"),
+            ("visible", "c, slope", "visible1(c, steep(c, slope))"),
+            ("spread", "c, slope", "sqrt(sin2(c)) / c * erfc0(c / steep(c, slope))"),
+            ("shadow_free", "k", "1.0 / sqrt(1.0 + lambert_w(k * k / (8.0 * PI)))"),
+            (
+                "he_torrance",
+                "ci, cr, q, sigma, tau, slope, n, k",
+                "0.25 * PI * tau * tau * fresnel(cosd(ci, cr, q), n, k) * visible(ci, slope) * visible(cr, slope)"
+                " * sq(v2(ci, cr, q) / (ci + cr))"
+                " * series(sq(2.0 * PI * sigma * (ci + cr) * shadow_free(spread(ci, slope) + spread(cr, slope))),"
+                " sq(PI * tau) * q)",
+            ),
+            (
+                "he_mirror",
+                "ci, sigma, slope, n, k",
+                "fresnel(ci, n, k) * sq(visible(ci, slope) * ci)"
+                " * exp(-least(sq(4.0 * PI * sigma * ci * shadow_free(2.0 * spread(ci, slope))), 85.0))",
+            ),
+        ),
+        mirror="{scale} * he_mirror(ci, {sigma_waves}, {slope}, {n}, {k})",
+        numbers=lambda *, sigma, slope, wavelength, **_: {
+            "sigma_waves": sigma / wavelength,
+            "tau_waves": sigma / slope / wavelength,
+        },
+    ),
 )

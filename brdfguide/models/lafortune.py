@@ -12,12 +12,14 @@ but nothing bounds their energy. `lobe` takes coefficients as papers print them.
 Source: Lafortune et al. 1997, "Non-linear approximation of reflectance functions".
 """
 
+from functools import lru_cache
 from math import pi, sqrt
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane
-from ._base import Derived, Extreme, Model, Parameter, Pin
+from ..physics.geometry import Geometry
+from .facts import MIRROR_DEG, Candidacy, Facets, Formula
+from .model import Derived, Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, *, ks, tilt, exponent) -> np.ndarray:
@@ -27,12 +29,17 @@ def brdf(geom: Geometry, *, ks, tilt, exponent) -> np.ndarray:
 
 
 def gradient(geom: Geometry, names, *, ks, tilt, exponent) -> dict[str, np.ndarray]:
-    """df/dn = f ln base; df/dt = f n (dbase/dt)/base, where base turns by -cos θi cos θr/(sin t |sin t|) or by -i_xy·r_xy/cos²t."""
+    """df/dn = f ln base; df/dt = f n (dbase/dt)/base, where base turns by -cos θi cos θr/(sin t |sin t|) or by
+    -i_xy·r_xy/cos²t."""
     above, ln_base = _ln_base(geom, *_coefficients(tilt))
     lobe = np.where(above, np.exp(exponent * ln_base), 0.0)
     wide = np.abs(tilt) < pi / 4
     sin, cos = np.where(wide, 1.0, np.sin(tilt)), np.cos(tilt)
-    turned = geom.dot_xy / -(cos**2) if np.all(wide) else np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
+    turned = (
+        geom.dot_xy / -(cos**2)
+        if np.all(wide)
+        else np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
+    )
     return {"ks": lobe, "tilt": lobe * turned * np.exp(-ln_base) * (ks * exponent), "exponent": lobe * ln_base * ks}
 
 
@@ -43,7 +50,9 @@ def c_xy(tilt):
 
 def c_z(tilt):
     """Coefficient of cos θi cos θr: 1 within 45°, else cos(tilt)/|sin(tilt)|."""
-    return np.where(np.abs(tilt) < pi / 4, 1.0, np.cos(tilt) / np.where(np.abs(tilt) < pi / 4, 1.0, np.abs(np.sin(tilt))))
+    return np.where(
+        np.abs(tilt) < pi / 4, 1.0, np.cos(tilt) / np.where(np.abs(tilt) < pi / 4, 1.0, np.abs(np.sin(tilt)))
+    )
 
 
 def _coefficients(tilt):
@@ -74,14 +83,48 @@ def _ln_base(geom: Geometry, rest, c_xy, both):
     return above, np.log1p(np.where(above, excess, 0.0))
 
 
+def from_facets(facets: Facets) -> dict:
+    """The one lobe that grows toward grazing as the facets do, as near as it can."""
+    tilt, height = _following(facets.growth, facets.mirror_exponent)
+    return {"ks": tuple(each * height for each in facets.peak), "tilt": tilt, "exponent": facets.mirror_exponent}
+
+
+@lru_cache(maxsize=256)
+def _following(growth: tuple[float, ...], exponent: float) -> tuple[float, float]:
+    """(tilt, ks over the peak at the normal) of the one lobe whose mirror values follow `growth` best in ln."""
+    c2 = np.cos(np.radians(MIRROR_DEG)) ** 2
+    tilt = np.radians(np.linspace(45.0, 85.0, 161))[:, None]
+    ln_lobe = exponent * np.log(1 - c2 + c2 / np.tan(tilt))
+    miss = np.log(growth) - ln_lobe
+    best = int(np.argmin(np.var(miss, axis=1)))
+    return float(tilt[best, 0]), float(np.exp(miss[best].mean()))
+
+
+def beyond_facets(*, tilt, **_) -> str:
+    """What one lobe of facets cannot hold of it."""
+    return "a lobe back toward the light has no counterpart" if np.any(np.less(tilt, 0)) else ""
+
+
 MODEL = Model(
     __name__,
     brdf,
     roles=("surface", "subsurface"),
     parameters=(
-        Parameter("ks", 0.2, 0.0, 1e6, unit="1/sr", linear=True, per_channel=True, meaning="greatest value of the lobe"),
-        Parameter("tilt", pi / 4, -1.5, 0.9 * pi, unit="rad", meaning="45°: mirror lobe; more: rises toward grazing; negative: back to the light", starts=(0.1, 0.75, 1.0, -0.75)),
-        Parameter("exponent", 10.0, 0.3, 1e4, log=True, meaning="n: narrowness", starts=(1.0, 4.0, 20.0, 100.0, 600.0, 4000.0)),
+        Parameter(
+            "ks", 0.2, 0.0, 1e6, unit="1/sr", linear=True, per_channel=True, meaning="greatest value of the lobe"
+        ),
+        Parameter(
+            "tilt",
+            pi / 4,
+            -1.5,
+            0.9 * pi,
+            unit="rad",
+            meaning="45°: mirror lobe; more: rises toward grazing; negative: back to the light",
+            starts=(0.1, 0.75, 1.0, -0.75),
+        ),
+        Parameter(
+            "exponent", 10.0, 0.3, 1e4, log=True, meaning="n: narrowness", starts=(1.0, 4.0, 20.0, 100.0, 600.0, 4000.0)
+        ),
     ),
     gradient=gradient,
     derived=(
@@ -90,14 +133,41 @@ MODEL = Model(
     ),
     summary="flexible: off-specular peaks, growth toward grazing, retro-reflection; many numbers, energy unbounded",
     pins=(
-        Pin(in_plane(45, 50), {"ks": 0.3, "tilt": 0.9, "exponent": 33.0}, f=0.010107660475553459, source="50 digits"),
-        Pin(in_plane(70, -40), {"ks": 1.7, "tilt": -0.5, "exponent": 2.5}, f=0.45837377613889039, source="50 digits"),
+        Pin(at(45, 50), {"ks": 0.3, "tilt": 0.9, "exponent": 33.0}, f=0.010107660475553459, source="50 digits"),
+        Pin(at(70, -40), {"ks": 1.7, "tilt": -0.5, "exponent": 2.5}, f=0.45837377613889039, source="50 digits"),
     ),
     extremes=(
-        Extreme("mirror lobe, largest exponent, 0.01° from grazing", in_plane(89.99, 89.99), {"ks": 0.2, "exponent": 1e4}, f=0.2),
-        Extreme("negative base", in_plane(80, -70), {"exponent": 3.7}, f=0.0),
-        Extreme("rising lobe, largest exponent: underflows", in_plane(5, 5), {"tilt": 1.0, "exponent": 1e4}, f=0.0),
+        Extreme(
+            "mirror lobe, largest exponent, 0.01° from grazing",
+            at(89.99, 89.99),
+            {"ks": 0.2, "exponent": 1e4},
+            f=0.2,
+        ),
+        Extreme("negative base", at(80, -70), {"exponent": 3.7}, f=0.0),
+        Extreme("rising lobe, largest exponent: underflows", at(5, 5), {"tilt": 1.0, "exponent": 1e4}, f=0.0),
     ),
     breaks={"energy": "a lobe tilted beyond 45° rises toward grazing without a bound on what it sends"},
     source="Lafortune et al. 1997",
+    family="Lafortune",
+    cannot="nothing bounds its energy; it only follows a measurement, "
+    "so its start values are a shape, not a prediction",
+    candidacy=Candidacy(60, lobes=2),
+    from_facets=from_facets,
+    beyond_facets=beyond_facets,
+    formula=Formula(
+        "lafortune(ci, cr, q, {ks}, {exponent}, {rest}, {c_xy}, {both})",
+        (
+            ("lafortune2", "ks, n, less", "choose(1.0 - less, ks * exp(n * ln1m(less)), 0.0)"),
+            (
+                "lafortune",
+                "ci, cr, q, ks, n, c1, c2, c3",
+                "lafortune2(ks, n, -(c1 + 0.5 * c2 * off2(ci, cr, q) + c3 * ci * cr))",
+            ),
+        ),
+        numbers=lambda *, tilt, **_: {
+            "rest": -c_xy(tilt) - 1,
+            "c_xy": c_xy(tilt),
+            "both": c_z(tilt) + c_xy(tilt),
+        },
+    ),
 )

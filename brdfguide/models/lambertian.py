@@ -12,8 +12,9 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane
-from ._base import Extreme, Model, Parameter, Pin
+from ..physics.geometry import Geometry
+from .facts import Candidacy, Formula
+from .model import Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, *, albedo) -> np.ndarray:
@@ -25,9 +26,15 @@ MODEL = Model(
     __name__,
     brdf,
     roles=("subsurface",),
-    parameters=(Parameter("albedo", 0.5, 0.0, 1.0, linear=True, per_channel=True, meaning="share of the light scattered back"),),
+    parameters=(
+        Parameter("albedo", 0.5, 0.0, 1.0, linear=True, per_channel=True, meaning="share of the light scattered back"),
+    ),
     summary="constant in all directions: solid colours below a surface; no highlight, no rise toward grazing",
-    pins=(Pin(in_plane(45, 50), {"albedo": 0.75}, f=0.238732414637843, source="0.75/π"),),
-    extremes=(Extreme("0.01° from grazing", in_plane(89.99, 89.99), {"albedo": 1.0}, f=0.3183098861837907),),
+    pins=(Pin(at(45, 50), {"albedo": 0.75}, f=0.238732414637843, source="0.75/π"),),
+    extremes=(Extreme("0.01° from grazing", at(89.99, 89.99), {"albedo": 1.0}, f=0.3183098861837907),),
     source="Lambert 1760",
+    family="body",
+    cannot="no rise toward grazing",
+    candidacy=Candidacy(10, bare=True),
+    formula=Formula("lambertian({albedo})", (("lambertian", "albedo", "albedo / PI"),)),
 )

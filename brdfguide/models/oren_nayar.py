@@ -16,8 +16,10 @@ from math import pi
 
 import numpy as np
 
-from ..geometry import Geometry, in_plane, once
-from ._base import Extreme, Model, Parameter, Pin
+from ..formed import formed
+from ..physics.geometry import Directions, Geometry
+from .facts import Candidacy, Formula
+from .model import Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, *, albedo, spread) -> np.ndarray:
@@ -36,7 +38,9 @@ def qualitative(geom: Geometry, *, albedo, spread) -> np.ndarray:
 def smooth(geom: Geometry, *, albedo, spread) -> np.ndarray:
     """Lambert's law as bright as the short form toward the normal [1/sr]."""
     s2 = spread * spread
-    return np.broadcast_to(albedo / pi * (1 - 0.5 * s2 / (s2 + 0.33)), np.broadcast_shapes(geom.shape, np.shape(albedo)))
+    return np.broadcast_to(
+        albedo / pi * (1 - 0.5 * s2 / (s2 + 0.33)), np.broadcast_shapes(geom.shape, np.shape(albedo))
+    )
 
 
 def gradient(geom: Geometry, names, *, albedo, spread) -> dict[str, np.ndarray]:
@@ -55,26 +59,30 @@ def _parts(geom: Geometry, s2):
     return once, (0.17 * s2 / (s2 + 0.13)) * _grooves(geom)
 
 
-@once
-def _rays(geom: Geometry):
+@formed
+def _rays(to: Directions) -> np.ndarray:
     """C2 cos φ tan β + C3 (1 - |cos φ|) tan((α + β)/2), per s²/(s² + 0.09).
 
     sin α tan β cos φ = (i_xy·r_xy)/max(cos θ); sin α - (2β/π)³ from the elevations, since both are near 1 at grazing.
     """
-    elevation_i, elevation_r = np.arctan2(geom.cos_i, geom.sin_i), np.arctan2(geom.cos_r, geom.sin_r)
+    elevation_i, elevation_r = np.arctan2(to.cos_i, to.sin_i), np.arctan2(to.cos_r, to.sin_r)
     lower, u = np.minimum(elevation_i, elevation_r), (2 / pi) * np.maximum(elevation_i, elevation_r)
-    cos_phi = np.cos(np.radians(geom.phi_deg))
-    toward = np.maximum(geom.dot_xy, 0.0) / np.maximum(geom.cos_i, geom.cos_r)
-    away = np.minimum(cos_phi, 0.0) * np.minimum(geom.tan_i, geom.tan_r) * (u * (3 - u * (3 - u)) - 2 * np.sin(0.5 * lower) ** 2)
-    tan_mean = (geom.sin_i + geom.sin_r) / geom.v_z
+    cos_phi = np.cos(np.radians(to.phi_deg))
+    toward = np.maximum(to.dot_xy, 0.0) / np.maximum(to.cos_i, to.cos_r)
+    away = (
+        np.minimum(cos_phi, 0.0)
+        * np.minimum(to.tan_i, to.tan_r)
+        * (u * (3 - u * (3 - u)) - 2 * np.sin(0.5 * lower) ** 2)
+    )
+    tan_mean = (to.sin_i + to.sin_r) / to.v_z
     sideways = 0.125 * ((1 - (2 / pi) * lower) * (1 - u)) ** 2 * (1 - np.abs(cos_phi)) * tan_mean
     return 0.45 * (toward + away) + sideways
 
 
-@once
-def _grooves(geom: Geometry):
+@formed
+def _grooves(to: Directions) -> np.ndarray:
     """1 - cos φ (2β/π)²."""
-    return 1 - np.cos(np.radians(geom.phi_deg)) * (2 * np.minimum(geom.theta_i, geom.theta_r) / pi) ** 2
+    return 1 - np.cos(np.radians(to.phi_deg)) * (2 * np.minimum(to.theta_i, to.theta_r) / pi) ** 2
 
 
 MODEL = Model(
@@ -83,20 +91,68 @@ MODEL = Model(
     roles=("subsurface",),
     parameters=(
         Parameter("albedo", 0.5, 0.0, 1.0, per_channel=True, meaning="reflectance of a facet", starts=(0.1, 0.4, 0.8)),
-        Parameter("spread", 0.3, 0.0, 0.66, unit="rad", meaning="standard deviation of the facets' tilt", starts=(0.1, 0.3, 0.6)),
+        Parameter(
+            "spread",
+            0.3,
+            0.0,
+            0.66,
+            unit="rad",
+            meaning="standard deviation of the facets' tilt",
+            starts=(0.1, 0.3, 0.6),
+        ),
     ),
     gradient=gradient,
     without={"interreflection": qualitative, "roughness": smooth},
     summary="rough diffusers: clay, matte paper, dust; flatter than Lambert, brighter toward the light",
     pins=(
-        Pin(in_plane(45, 50), {"albedo": 0.75, "spread": 0.4}, f=0.17667271277907862, source="50 digits"),
-        Pin(in_plane(70, -40), {"albedo": 0.2, "spread": 0.6}, f=0.066401622655465497, source="50 digits"),
-        Pin(Geometry.from_degrees(60, 10, 30, 75), {"albedo": 0.9, "spread": 0.7}, f=0.25777535232049272, source="50 digits"),
+        Pin(at(45, 50), {"albedo": 0.75, "spread": 0.4}, f=0.17667271277907862, source="50 digits"),
+        Pin(at(70, -40), {"albedo": 0.2, "spread": 0.6}, f=0.066401622655465497, source="50 digits"),
+        Pin(
+            at(60, 30, phi_i=10, phi_r=75),
+            {"albedo": 0.9, "spread": 0.7},
+            f=0.25777535232049272,
+            source="50 digits",
+        ),
     ),
     extremes=(
-        Extreme("at the normal, where the azimuth is undefined", in_plane(0, 0), {"albedo": 1.0, "spread": 0.66}),
-        Extreme("both at grazing, where tan β grows without bound", in_plane(89.99, -89.99), {"albedo": 1.0, "spread": 0.66}),
+        Extreme("at the normal, where the azimuth is undefined", at(0, 0), {"albedo": 1.0, "spread": 0.66}),
+        Extreme("both at grazing, where tan β grows without bound", at(89.99, -89.99), {"albedo": 1.0, "spread": 0.66}),
     ),
     breaks={"energy": "tan β sends more than 1 beyond 60°: 1.05 at grazing for albedo 1, spread 0.3"},
     source="Oren and Nayar 1994",
+    family="body",
+    cannot="no lobe toward the mirror direction",
+    candidacy=Candidacy(
+        20,
+        under=("ggx",),
+        bare=True,
+        contains={"lambertian": {"spread": 0.3}},
+        adds="a body whose facets shade each other",
+    ),
+    formula=Formula(
+        "oren_nayar(ci, cr, p, {albedo}, {spread})",
+        (
+            (
+                "oren3",
+                "ci, cr, p, albedo, s2, a, b, cphi",
+                "albedo / PI * (1.0 - 0.5 * s2 / (s2 + 0.33)"
+                " + 0.45 * s2 / (s2 + 0.09) * (p / most(ci, cr) - least(cphi, 0.0) * sqrt(sin2(most(ci, cr)))"
+                " / most(ci, cr) * sq(2.0 * b / PI) * 2.0 * b / PI)"
+                " + 0.125 * s2 / (s2 + 0.09) * sq(4.0 * a * b / (PI * PI)) * (1.0 - choose(cphi, cphi, -cphi))"
+                " * (sqrt(sin2(ci)) + sqrt(sin2(cr))) / (ci + cr)"
+                " + albedo * 0.17 * s2 / (s2 + 0.13) * (1.0 - cphi * sq(2.0 * b / PI)))",
+            ),
+            (
+                "oren2",
+                "ci, cr, p, albedo, s2, ss",
+                "oren3(ci, cr, p, albedo, s2, acos(least(ci, cr)), acos(most(ci, cr)),"
+                " choose(ss - 1.0e-6, most(least(p / most(ss, 1.0e-6), 1.0), -1.0), 0.0))",
+            ),
+            (
+                "oren_nayar",
+                "ci, cr, p, albedo, spread",
+                "oren2(ci, cr, p, albedo, spread * spread, sqrt(sin2(ci) * sin2(cr)))",
+            ),
+        ),
+    ),
 )

@@ -1,14 +1,15 @@
-"""How the report page looks, and figures put into it: light and dark, on a phone, on paper; nothing from the network."""
+"""How the report page looks, and figures put into it: light and dark, phone and paper; nothing from the network."""
 
 import re
 from base64 import b64encode
 
-from . import style
+from .figures import style
 
 CSS = """
 :root{--paper:#fff;--ink:#1f2328;--soft:#57606a;--rule:#c9ced6;--card:#f6f7f9;--accent:#005a91;--bad:#a33b00;
  --s0:#0072B2;--s1:#D55E00;--s2:#009E73;--s3:#CC79A7;--s4:#E69F00;--s5:#56B4E9;--s6:#8A6D3B;--s7:#777777}
-@media (prefers-color-scheme:dark){:root{--paper:#14171a;--ink:#e8eaed;--soft:#a7b0ba;--rule:#4a525c;--card:#1e2327;--accent:#7cc4f5;--bad:#ffa36b;
+@media (prefers-color-scheme:dark){:root{
+ --paper:#14171a;--ink:#e8eaed;--soft:#a7b0ba;--rule:#4a525c;--card:#1e2327;--accent:#7cc4f5;--bad:#ffa36b;
  --s0:#5AB0F2;--s1:#FF8A3D;--s2:#35C79A;--s3:#E8A0C8;--s4:#F2B632;--s5:#9AD2F6;--s6:#C9A86A;--s7:#A8A8A8}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
@@ -24,12 +25,15 @@ a{color:var(--accent)}
 .answer strong{font-size:1.5rem;line-height:1.2;display:block}
 .wide{overflow-x:auto;margin:.6rem 0}
 table{border-collapse:collapse;font-size:.9rem}
-th,td{padding:.25rem .9rem .25rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
-th{font-weight:600;white-space:nowrap}
-td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+th,td{padding:.25rem .7rem .25rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
+th{font-weight:600}
+td:last-child{overflow-wrap:anywhere}
+td.n,th.n{text-align:right}td.n{font-variant-numeric:tabular-nums;white-space:nowrap}
 td:nth-child(2){white-space:nowrap}
 tr.pick td{font-weight:600}
 .bar{display:inline-block;height:.6em;background:var(--accent);vertical-align:baseline;min-width:2px}
+.floor{position:relative;height:1.2em}
+.floor .mark{position:absolute;top:0;width:2px;height:1.2em;background:var(--ink)}
 ul{margin:.3rem 0;padding-left:1.2rem}
 li{margin:.25rem 0}
 .warning::marker,.error::marker{color:var(--bad)}
@@ -44,13 +48,14 @@ dl{display:grid;grid-template-columns:minmax(7rem,max-content) 1fr;gap:.2rem 1re
 dt{color:var(--soft)}dd{margin:0;min-width:0}
 @media print{:root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--card:#f4f4f4;--accent:#005a91;--bad:#a33b00;
  --s0:#0072B2;--s1:#D55E00;--s2:#009E73;--s3:#CC79A7;--s4:#E69F00;--s5:#56B4E9;--s6:#8A6D3B;--s7:#777777}
- body{max-width:none;font-size:10pt;padding:0}nav{display:none}.wide{overflow:visible}figure svg{min-width:0}figure,tr,li{break-inside:avoid}h2{break-after:avoid}}
+ body{max-width:none;font-size:10pt;padding:0}nav{display:none}.wide{overflow:visible}
+ figure svg{min-width:0}figure,tr,li{break-inside:avoid}h2{break-after:avoid}}
 """
 
 
-def document(title: str, body: str, data: str) -> str:
+def html_page(title: str, body: str, data: str) -> str:
     """A whole page; `data` is JSON for programs, never run."""
-    data = data.replace("</", "<\\/")
+    data = data.replace("<", "\\u003c")  # neither an end of the element nor a beginning of a comment
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
@@ -61,12 +66,13 @@ def document(title: str, body: str, data: str) -> str:
 
 
 def inline(svg: bytes, number: int) -> str:
-    """A figure as part of a page: it takes the page's colours and width, and its names do not meet those of other figures."""
+    """A figure as part of a page: it takes the page's colours and width, and its names meet no other figure's."""
     text = svg.decode()
     text = text[text.index("<svg") :]
-    text = re.sub(r'<svg([^>]*?) width="[^"]*"', r"<svg\1", text, count=1)
-    text = re.sub(r'<svg([^>]*?) height="[^"]*"', r"<svg\1", text, count=1)
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
+    text = re.sub(r'<svg([^<>]*?) width="[^"<>]*"', r"<svg\1", text, count=1)
+    text = re.sub(r'<svg([^<>]*?) height="[^"<>]*"', r"<svg\1", text, count=1)
+    before, metadata, rest = text.partition("<metadata>")
+    text = before + rest.partition("</metadata>")[2] if metadata else text
     text = re.sub(r'\bid="', f'id="f{number}-', text)
     text = re.sub(r'href="#', f'href="#f{number}-', text)
     text = text.replace("url(#", f"url(#f{number}-")

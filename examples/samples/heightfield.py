@@ -1,8 +1,9 @@
-"""Light on an explicit random rough interface: shadowing by scan lines, first reflection by its slopes, the rest by rays.
+"""Light on an explicit random rough interface: shadowing by scan lines, first reflection by its slopes, the rest by
+rays.
 
 Nothing here knows a reflectance model: a map of heights is drawn from a power spectrum, its facets reflect by Fresnel's
-equations, other parts of the map hide them, and light that hits a second facet is followed by ray tracing. Lengths are in
-units of the correlation length. Geometric optics: facets are large against the wavelength.
+equations, other parts of the map hide them, and light that hits a second facet is followed by ray tracing. Lengths are
+in units of the correlation length. Geometric optics: facets are large against the wavelength.
 """
 
 import numpy as np
@@ -63,7 +64,8 @@ def visible(z, theta_deg):
 
 
 def first_reflection(maps, thetas_i, thetas_r, n, k=0.0, width=0.05):
-    """BRDF [1/sr] of light reflected once, (theta_i, theta_r): the share of the map that is seen by both and tilted right.
+    """BRDF [1/sr] of light reflected once, (theta_i, theta_r): the share of the map that is seen by both and tilted
+    right.
 
     f = F(cos d) P(slope) / (4 cos i cos r cos^4 h), with P the density of visible slopes in a window `width` wide.
     """
@@ -78,11 +80,11 @@ def first_reflection(maps, thetas_i, thetas_r, n, k=0.0, width=0.05):
             tilt = sx.ravel()[near]
             z32 = np.ascontiguousarray(z, np.float32)
             lit = [visible(z32, -t).ravel()[near] for t in thetas_i]
-            seen = [visible(z32, t).ravel()[near] for t in thetas_r]
+            visible_from = [visible(z32, t).ravel()[near] for t in thetas_r]
             low, high = np.searchsorted(tilt, slope - width / 2), np.searchsorted(tilt, slope + width / 2)
             for a, b in np.ndindex(*slope.shape):
                 rows = slice(low[a, b], high[a, b])
-                count[a, b] += np.count_nonzero(lit[a][rows] & seen[b][rows])
+                count[a, b] += np.count_nonzero(lit[a][rows] & visible_from[b][rows])
             cells += z.size
     cos_d = np.cos((i + r) / 2)
     return fresnel(cos_d, n, k) * count / cells / width**2 * (1 + slope**2) ** 2 / (4 * np.cos(i) * np.cos(r))
@@ -112,7 +114,8 @@ def trace(each, theta_i_deg, n, k, rays, rng, most=4):
             normal = np.column_stack((-_at(sx, at[rows]), -_at(sy, at[rows]), np.ones(rows.size)))
             normal /= np.linalg.norm(normal, axis=1)[:, None]
             facing = -np.sum(go[rows] * normal, axis=1)
-            share = np.where(facing > 0, fresnel(np.abs(facing), n, k), 1.0)  # a grazing miss of the interpolation passes on
+            # a grazing miss of the interpolation passes on
+            share = np.where(facing > 0, fresnel(np.abs(facing), n, k), 1.0)
             transmitted += np.sum(weight[rows] * (1 - share))
             weight[rows] *= share
             turn = np.where(facing > 0, 2 * facing, 0.0)
@@ -151,4 +154,6 @@ def _at(values, at):
     x, y = np.floor(u).astype(int), np.floor(v).astype(int)
     a, b = u - x, v - y
     x0, y0, x1, y1 = x % SIZE, y % SIZE, (x + 1) % SIZE, (y + 1) % SIZE
-    return (1 - b) * ((1 - a) * values[y0, x0] + a * values[y0, x1]) + b * ((1 - a) * values[y1, x0] + a * values[y1, x1])
+    return (1 - b) * ((1 - a) * values[y0, x0] + a * values[y0, x1]) + b * (
+        (1 - a) * values[y1, x0] + a * values[y1, x1]
+    )

@@ -2,8 +2,9 @@
 
     python examples/samples/instrument.py TRUTH.csv --seed 1 --theta-i 10,45,75 > sample.csv
 
-Per reading 1.5 % noise and 0.1 degrees of angular error, 2 % gain per incidence angle, 0.5 % common gain, a constant floor of
-3e-5/(cos i cos r) 1/sr; blocked within 5 degrees of the light; readings below five standard errors are dropped, not clipped.
+Per reading 1.5 % noise and 0.1 degrees of angular error, 2 % gain per incidence angle, 0.5 % common gain, a constant
+floor of 3e-5/(cos i cos r) 1/sr; blocked within 5 degrees of the light; readings below five standard errors are
+dropped, not clipped.
 """
 
 import sys
@@ -29,7 +30,7 @@ def measure(i, r, f, seed, wanted=None):
     rng = np.random.default_rng(seed)
     common = 1 + COMMON_GAIN * rng.standard_normal()
     rows, dropped = [], 0
-    for theta_i, curve in zip(i, f):
+    for theta_i, curve in zip(i, f, strict=True):
         gain = common * (1 + SCAN_GAIN * rng.standard_normal())
         true = np.interp(r + ANGLE_DEG * rng.standard_normal(r.size), r, curve)
         floor = FLOOR / (np.cos(np.radians(theta_i)) * np.cos(np.radians(r)))
@@ -39,7 +40,10 @@ def measure(i, r, f, seed, wanted=None):
         strong = read > 5 * stderr
         dropped += np.count_nonzero(open_ & ~strong)
         if wanted is None or theta_i in wanted:
-            rows += [(theta_i, *row) for row in zip(r[open_ & strong], read[open_ & strong], stderr[open_ & strong])]
+            rows += [
+                (theta_i, *row)
+                for row in zip(r[open_ & strong], read[open_ & strong], stderr[open_ & strong], strict=True)
+            ]
     return rows, dropped
 
 
@@ -53,7 +57,10 @@ def main():
     wanted = [float(word) for word in options.theta_i.split(",") if word] or None
     rows, dropped = measure(i, r, f, options.seed, wanted)
     print("\n".join(header))
-    print(f"# instrument: examples/samples/instrument.py --seed {options.seed}; {dropped} readings below the noise floor dropped")
+    print(
+        f"# instrument: examples/samples/instrument.py --seed {options.seed}; {dropped} readings below the noise "
+        f"floor dropped"
+    )
     print("theta_i_deg,theta_r_deg,brdf,stderr")
     for theta_i, theta_r, value, stderr in rows:
         print(f"{theta_i:g},{theta_r:g},{value:.5g},{stderr:.2g}")

@@ -1,6 +1,6 @@
 """Make the noise-free tables of the synthetic stand-ins, one CSV for each surface and variant.
 
-    python examples/samples/make.py rough_plastic a > examples/samples/truth/rough_plastic_a.csv
+python examples/samples/make.py rough_plastic a > examples/samples/truth/rough_plastic_a.csv
 """
 
 import sys
@@ -22,8 +22,8 @@ def main(surface, variant):
     print(f"# generator: examples/samples/{surface}.py {variant}; in plane, theta_r > 0 on the mirror side")
     print(f"# wavelength_nm: {getattr(module, 'WAVELENGTH_NM', 550)}")
     print("theta_i_deg,theta_r_deg,brdf")
-    for theta_i, row in zip(thetas_i, f):
-        for theta_r, value in zip(thetas_r, row):
+    for theta_i, row in zip(thetas_i, f, strict=True):
+        for theta_r, value in zip(thetas_r, row, strict=True):
             print(f"{theta_i:g},{theta_r:g},{value:.6g}")
 
 

@@ -1,4 +1,5 @@
-"""Stand-in for the report's metallic paint (section 4.5): tilted flakes under a smooth clear coat, its mirror image left out.
+"""Stand-in for the report's metallic paint (section 4.5): tilted flakes under a smooth clear coat, its mirror image
+left out.
 
     f = T(i) T(r)/n² [R D(h') / (4 cos i' cos r') + 0.04/pi],   primes: inside the coat
 

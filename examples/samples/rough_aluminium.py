@@ -1,7 +1,8 @@
-"""Stand-in for the report's rough aluminium (section 4.1): diffraction by a rough metal with a soft exponential correlation.
+"""Stand-in for the report's rough aluminium (section 4.1): diffraction by a rough metal with a soft exponential
+correlation.
 
-Level L1: the same physics as the He-Torrance model, other statistics; a comparison of that model with the rest is tilted its way.
-Variant a as specified, variant b a sharper-cornered correlation of the same slope.
+Level L1: the same physics as the He-Torrance model, other statistics; a comparison of that model with the rest is
+tilted its way. Variant a as specified, variant b a sharper-cornered correlation of the same slope.
 """
 
 import numpy as np
@@ -17,7 +18,7 @@ def truth(thetas_i, thetas_r, variant="a"):
     """BRDF [1/sr] without noise, (theta_i, theta_r)."""
     length, rounding = VARIANTS[variant]
     f = reflected(
-        thetas_i, thetas_r, sigma=SIGMA, correlation=soft_exponential(length, rounding), reach=14 * length,
+        thetas_i, thetas_r, sigma=SIGMA, correlation=soft_exponential(length, rounding), radius=14 * length,
         slope_sd=SIGMA / np.sqrt(length * rounding), n=N, k=K, wavelength=WAVELENGTH, half_angle_deg=HALF_ANGLE_DEG,
     )  # fmt: skip
     return f + 0.03 / np.pi  # light reflected more than once

@@ -1,7 +1,7 @@
 """Stand-in for the report's rough plastic (section 4.2): a rough dielectric interface over a scattering body.
 
-Level L2: an explicit random height field, exact Fresnel, shadowing and up to four reflections; no reflectance model that is
-fitted later. Body: light that enters, 0.55 of it back, evenly inside, leaving through the same interface.
+Level L2: an explicit random height field, exact Fresnel, shadowing and up to four reflections; no reflectance model
+that is fitted later. Body: light that enters, 0.55 of it back, evenly inside, leaving through the same interface.
 Variant a has more fine detail than a Gaussian surface, variant b is Gaussian.
 """
 
@@ -18,7 +18,9 @@ def truth(thetas_i, thetas_r, variant="a", seed=20041, maps=24):
     """BRDF [1/sr] without noise, (theta_i, theta_r)."""
     interface, passed = rough_interface(thetas_i, thetas_r, VARIANTS[variant], SLOPE_SD, seed, maps)
     leaving = passed(np.abs(thetas_r))
-    mean = np.trapezoid(passed(np.arange(0, 90)) * np.sin(np.radians(2 * np.arange(0, 90))), np.radians(np.arange(0, 90)))
+    mean = np.trapezoid(
+        passed(np.arange(0, 90)) * np.sin(np.radians(2 * np.arange(0, 90))), np.radians(np.arange(0, 90))
+    )
     return interface + BODY / np.pi * passed(thetas_i)[:, None] * leaving[None, :] / mean
 
 

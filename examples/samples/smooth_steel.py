@@ -18,6 +18,6 @@ def truth(thetas_i, thetas_r, variant="a"):
     """BRDF [1/sr] without noise, (theta_i, theta_r)."""
     length, rounding = VARIANTS[variant]
     return reflected(
-        thetas_i, thetas_r, sigma=0.08, correlation=soft_exponential(length, rounding), reach=14 * length,
+        thetas_i, thetas_r, sigma=0.08, correlation=soft_exponential(length, rounding), radius=14 * length,
         slope_sd=0.08 / np.sqrt(length * rounding), n=2.9, k=3.1, wavelength=0.633, half_angle_deg=0.4,
     )  # fmt: skip

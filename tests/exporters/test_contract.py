@@ -2,20 +2,29 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from brdfguide import exporters
+from brdfguide.data.formats import merl
 from brdfguide.errors import BrdfguideError, InputError, NoAnswer
-from brdfguide.exporters import _directions, _tensor, merl
-from brdfguide.exporters._base import Refused, Surface, number
-from brdfguide.exporters._placement import Warp
-from brdfguide.geometry import Geometry, rows
+from brdfguide.exporters import _directions
+from brdfguide.exporters.exporter import ColouredSurface, Refused, number
+from brdfguide.exporters.tables import tensor
+from brdfguide.exporters.tables.placement import Warp
+from brdfguide.physics.geometry import Geometry, rows
 
-from .conftest import EVERY_LAW, random_surface
+from .conftest import EVERY_LAW, random_surface, surface
 
-FEW = rows(Geometry.from_degrees(*np.array(np.meshgrid([5.0, 45.0, 75.0], [0.0], [10.0, 44.0, 46.0, 74.0, 80.0], [0.0, 120.0, 178.0, 180.0])).reshape(4, -1)))
+FEW = rows(
+    Geometry.from_degrees(
+        *np.array(
+            np.meshgrid([5.0, 45.0, 75.0], [0.0], [10.0, 44.0, 46.0, 74.0, 80.0], [0.0, 120.0, 178.0, 180.0])
+        ).reshape(4, -1)
+    )
+)
 
 
 @pytest.mark.parametrize("target", exporters.names())
@@ -29,6 +38,19 @@ def test_every_law_becomes_a_file_or_a_sentence(target, each):
     assert made.statement.status in ("exact", "refit", "lossy")
     assert made.statement.rms_ln < (1e-4 if made.statement.status == "exact" else np.inf)
     assert made.content and made.statement.target == target
+    assert_seen(made.statement)
+
+
+def assert_seen(statement):
+    """S of what the file shows; a mirror alone has none, an exact file differs nowhere."""
+    assert (statement.seen is None) == (statement.shown is None)
+    if statement.seen is None:
+        assert "mirror" in statement.over
+        return
+    assert 0 <= statement.seen < (0.05 if statement.status == "exact" else 200)
+    assert f"seen {statement.seen:.1f} L*" in statement.sentence()
+    geom = rows(Geometry.from_degrees(30.0, 0.0, np.array([10.0, 25.0, 50.0]), 170.0))
+    assert statement.shown(geom).shape == (3, 3)
 
 
 @pytest.mark.parametrize("target", exporters.names())
@@ -41,36 +63,89 @@ def test_bytes_repeat(target):
 def small_tables(monkeypatch):
     """Tables of a few nodes: here it is the road that is tested, not the resolution."""
     even = Warp(np.ones(2))
-    monkeypatch.setattr(_tensor, "grids", lambda brdf: [_tensor.Grid(np.radians([0.0, 40.0, 70.0, 89.0]), even, even, 8, _tensor._ndf(brdf))])
+    monkeypatch.setattr(
+        tensor,
+        "grids",
+        lambda brdf: [tensor.Grid(np.radians([0.0, 40.0, 70.0, 89.0]), even, even, 8, tensor._ndf(brdf))],
+    )
     monkeypatch.setattr(_directions, "JUDGED", 40)
     for name, size in (("THETA_H", 6), ("THETA_D", 6), ("PHI_D", 8)):
         monkeypatch.setattr(merl, name, size)
 
 
+@pytest.mark.parametrize("target", exporters.names())
+def test_a_surface_with_a_grain_is_refused_in_one_sentence(target):
+    grained = surface("stam", stam__ratio=3.0)
+    if exporters.get(target).grained:  # see test_grained
+        return
+    sentence = rf"stam changes as the sample turns: .* unless ratio is 1; {target} does not turn with it; gltf, .* do"
+    with pytest.raises(NoAnswer, match=sentence):
+        exporters.export(target, grained)
+
+
 def test_own_law_is_exact_where_the_target_has_it():
-    for name, target in (("lambertian", "mitsuba"), ("lambertian", "pbrt"), ("lambertian", "gltf"), ("lambertian", "materialx"), ("lambertian", "radiance"),
-                         ("ggx", "pbrt"), ("ward-gmd", "radiance"), ("mirror", "mitsuba"), ("mirror", "pbrt"), ("mirror", "materialx")):  # fmt: skip
+    for name, target in (
+        ("lambertian", "mitsuba"),
+        ("lambertian", "pbrt"),
+        ("lambertian", "gltf"),
+        ("lambertian", "materialx"),
+        ("lambertian", "radiance"),
+        ("ggx", "pbrt"),
+        ("ward-gmd", "radiance"),
+        ("mirror", "mitsuba"),
+        ("mirror", "pbrt"),
+        ("mirror", "materialx"),
+    ):
         assert exporters.export(target, EVERY_LAW[name]).statement.status == "exact", (name, target)
 
 
 def test_unlike_laws_are_not_called_exact():
-    for name, target in (("ward", "radiance"), ("phong", "mitsuba"), ("ggx", "mitsuba"), ("ggx", "gltf"), ("he-torrance", "mitsuba"), ("paint", "pbrt")):
+    for name, target in (
+        ("ward", "radiance"),
+        ("phong", "mitsuba"),
+        ("ggx", "mitsuba"),
+        ("ggx", "gltf"),
+        ("he-torrance", "mitsuba"),
+        ("paint", "pbrt"),
+    ):
         statement = exporters.export(target, EVERY_LAW[name]).statement
         assert statement.status != "exact" and statement.rms_ln > 1e-3, (name, target)
 
 
 # ranges that the readers document, by the name in the file
-UNIT = ("albedo", "baseColorFactor", "roughnessFactor", "metallicFactor", "specularFactor", "specularColorFactor", "diffuseColor", "specularColor",
-        "inputs:roughness", "base_color", "specular_roughness", "base_metalness", "metalness", "reflectance", "amount", "weight")  # fmt: skip
+UNIT = (
+    "albedo",
+    "baseColorFactor",
+    "roughnessFactor",
+    "metallicFactor",
+    "specularFactor",
+    "specularColorFactor",
+    "diffuseColor",
+    "specularColor",
+    "inputs:roughness",
+    "base_color",
+    "specular_roughness",
+    "base_metalness",
+    "metalness",
+    "reflectance",
+    "amount",
+    "weight",
+)
 NUMBER = r"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?"
 
 
 def out_of_range(text: str) -> list[str]:
     """Numbers after a name of UNIT that are not within 0..1, and any number that is none."""
-    body = "\n".join(line for line in re.sub(r"<!--.*?-->", "", text, flags=re.S).splitlines() if not line.lstrip().startswith(("#", "//", '"command', '"parameters')))
-    found = [word for word in re.findall(r"(?<![\w.])(?:nan|inf)(?![\w.])", body, flags=re.I)]
+    body = "\n".join(
+        line
+        for line in re.sub(r"<!--.*?-->", "", text, flags=re.S).splitlines()
+        if not line.lstrip().startswith(("#", "//", '"command', '"parameters'))
+    )
+    found = re.findall(r"(?<![\w.])(?:nan|inf)(?![\w.])", body, flags=re.I)
     for name in UNIT:
-        for match in re.finditer(rf'(?<!\w){name}"?(?:\s*(?:type="\w+"|"))?\s*(?:value=|:|=|\[)?\s*["(\[]*((?:{NUMBER}[,\s]*)+)', body):
+        for match in re.finditer(
+            rf'(?<!\w){name}"?(?:\s*(?:type="\w+"|"))?\s*(?:value=|:|=|\[)?\s*["(\[]*((?:{NUMBER}[,\s]*)+)', body
+        ):
             values = [float(each) for each in re.findall(NUMBER, match[1])]
             values = values[1::2] if "spectrum" in body[max(0, match.start() - 12) : match.start()] else values
             found += [f"{name}={value}" for value in values if not 0 <= value <= 1]
@@ -78,11 +153,19 @@ def out_of_range(text: str) -> list[str]:
 
 
 def test_the_range_check_sees_what_it_should():
-    assert out_of_range('<float name="weight" value="1.2"/>') and out_of_range('"roughnessFactor": -0.1') and out_of_range("x = nan;")
-    assert not out_of_range('<float name="weight" value="0.2"/>') and not out_of_range('"spectrum reflectance" [ 360 0.5 830 0.5 ]')
+    assert (
+        out_of_range('<float name="weight" value="1.2"/>')
+        and out_of_range('"roughnessFactor": -0.1')
+        and out_of_range("x = nan;")
+    )
+    assert not out_of_range('<float name="weight" value="0.2"/>') and not out_of_range(
+        '"spectrum reflectance" [ 360 0.5 830 0.5 ]'
+    )
 
 
-@pytest.mark.parametrize("seed", [pytest.param(seed, marks=() if seed < 6 else pytest.mark.validate) for seed in range(200)])
+@pytest.mark.parametrize(
+    "seed", [pytest.param(seed, marks=() if seed < 6 else pytest.mark.validate) for seed in range(200)]
+)
 def test_random_material_through_every_exporter(seed):
     surface = random_surface(seed)
     for target in exporters.names():
@@ -118,23 +201,35 @@ def test_unknown_target_names_the_nearest():
 def test_spec_without_a_file_is_refused(tmp_path):
     law = EVERY_LAW["ggx"]
     with pytest.raises(InputError, match="is not TARGET:FILE"):
-        exporters.export_to("mitsuba", law.model, law.values, law.channels, law.wavelength)
-    statement = exporters.export_to(f"mitsuba:{tmp_path}/a.xml", law.model, law.values, law.channels, law.wavelength)
+        exporters.export_to("mitsuba", law)
+    statement, document = exporters.export_to(f"mitsuba:{tmp_path}/a.xml", law)
+    assert document["files"] == [f"{tmp_path}/a.xml"] and document["rms_ln"] == statement.rms_ln
     assert statement.target == "mitsuba" and (tmp_path / "a.xml").read_text().startswith("<!--")
 
 
 def test_value_out_of_bounds_is_refused():
     law = EVERY_LAW["ggx"]
     with pytest.raises(InputError, match="ggx.alpha = -1 is outside"):
-        exporters.export_to("mitsuba:x.xml", law.model, {**law.values, "ggx.alpha": -1.0}, law.channels, law.wavelength)
+        exporters.export_to("mitsuba:x.xml", law.with_value("ggx.alpha", -1.0))
     with pytest.raises(InputError, match="2 values for 3 channels"):
-        exporters.export_to("mitsuba:x.xml", law.model, {**law.values, "ggx.n": np.array([1.5, 1.6])}, law.channels, law.wavelength)
+        three = replace(law, channels=("R", "G", "B"))
+        exporters.export_to("mitsuba:x.xml", three.with_value("ggx.n", np.array([1.5, 1.6])))
 
 
 def test_comment_holds_command_version_colour_and_cost():
     from brdfguide import __version__
 
     law = EVERY_LAW["paint"]
-    made = exporters.export("usd", Surface(law.model, law.values, law.channels, law.wavelength, "paint", "brdfguide export paint.json --to usd"))
-    for words in (f"brdfguide {__version__}", "command: brdfguide export paint.json --to usd", "colour: channels red, green and blue", "usd: refit, rms ln"):
+    made = exporters.export(
+        "usd",
+        ColouredSurface(
+            law.model, law.values, law.channels, law.wavelength, "paint", "brdfguide export paint.json --to usd"
+        ),
+    )
+    for words in (
+        f"brdfguide {__version__}",
+        "command: brdfguide export paint.json --to usd",
+        "colour: channels red, green and blue",
+        "usd: refit, rms ln",
+    ):
         assert words in made.content

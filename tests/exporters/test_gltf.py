@@ -8,14 +8,16 @@ import subprocess
 import pytest
 
 from brdfguide import exporters
-from brdfguide.exporters._base import Refused
+from brdfguide.exporters.exporter import Refused
 
 from .conftest import EVERY_LAW, NAMES
 
 pytestmark = pytest.mark.validate
 SCRIPT = """
 const v = require('gltf-validator'), fs = require('fs');
-v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1]))).then(r => console.log(JSON.stringify(r.issues.messages)), e => { console.error(e); process.exit(3); });
+v.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1])))
+  .then(r => console.log(JSON.stringify(r.issues.messages)),
+  e => { console.error(e); process.exit(3); });
 """
 
 

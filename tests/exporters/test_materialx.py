@@ -6,7 +6,7 @@ import subprocess
 import pytest
 
 from brdfguide import exporters
-from brdfguide.exporters._base import Refused
+from brdfguide.exporters.exporter import Refused
 
 from .conftest import EVERY_LAW, NAMES
 
@@ -34,7 +34,9 @@ def test_document_validates_and_its_shader_compiles(target, name, of, libraries,
             pytest.skip("apt-get install glslang-tools: compiles the generated shaders")
         for stage in ("vert", "frag"):
             (tmp_path / f"shader.{stage}").write_text(made[stage])
-            run = subprocess.run(["glslangValidator", str(tmp_path / f"shader.{stage}")], capture_output=True, text=True)
+            run = subprocess.run(
+                ["glslangValidator", str(tmp_path / f"shader.{stage}")], capture_output=True, text=True
+            )
             assert run.returncode == 0, run.stdout
 
 
@@ -70,7 +72,11 @@ def test_inputs_lie_within_what_the_nodes_document(target, libraries):
                 continue
             declared = definition.getActiveInput(value.getName())
             assert declared is not None, (node.getCategory(), value.getName())
-            numbers = [float(each) for each in value.getValueString().split(",")] if value.getType() in ("float", "color3", "vector2") else []
+            numbers = (
+                [float(each) for each in value.getValueString().split(",")]
+                if value.getType() in ("float", "color3", "vector2")
+                else []
+            )
             low, high = declared.getAttribute("uimin"), declared.getAttribute("uimax")
             for number in numbers:
                 assert not low or number >= float(low.split(",")[0]), (value.getName(), number)

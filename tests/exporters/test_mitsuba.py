@@ -7,15 +7,17 @@ import pytest
 
 from brdfguide import exporters
 from brdfguide.exporters import _mitsuba
-from brdfguide.exporters._base import Refused
-from brdfguide.exporters._blurred import blurred
 from brdfguide.exporters._choice import choose
-from brdfguide.exporters._directions import chosen, rms_ln
+from brdfguide.exporters._directions import judged_over, rms_ln
+from brdfguide.exporters.exporter import Refused
+from brdfguide.exporters.tables.blurred import blurred
 
 from .conftest import EVERY_LAW, EXAMPLES, NAMES, directions, vectors
 
 mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba: the reader of these exports")
 pytestmark = [pytest.mark.validate, pytest.mark.filterwarnings("ignore")]
+
+SINGLE = 2e-7  # rms ln: Mitsuba's scalar variants calculate in single precision, whose step is 1.2e-7 of a value
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +31,7 @@ def evaluated(bsdf, geom, wavelengths=()) -> np.ndarray:
     si = mitsuba.SurfaceInteraction3f()
     si.wavelengths = list(wavelengths)
     values = []
-    for i, r in zip(light, view):
+    for i, r in zip(light, view, strict=True):
         si.wi = i
         values.append(np.array(bsdf.eval(mitsuba.BSDFContext(), si, r)) / r[2])
     return np.array(values)
@@ -44,18 +46,21 @@ def test_xml_and_dict_load_and_evaluate_as_stated(name, of):
         except Refused:
             continue
         namespace = {}
-        exec(twin.content, namespace)  # noqa: S102  our own file, as its user would import it
+        exec(twin.content, namespace)
         got = evaluated(mitsuba.load_string(made.content), geom)
         np.testing.assert_allclose(evaluated(mitsuba.load_dict(namespace["MATERIAL"]), geom), got, rtol=1e-5, atol=1e-9)
         if not _mitsuba.has_finite(surface):
             continue
         if made.statement.status == "exact":
             np.testing.assert_allclose(got, surface.rgb(geom), rtol=1e-4, err_msg=surface.name)
-        laws = _mitsuba._candidates(surface)
-        choice = choose(surface, None, laws)
-        law = laws[choice.name]
-        ours = np.broadcast_to(law.at(geom, {key: value for key, value in choice.values.items() if key not in law.fixed}), got.shape)
-        np.testing.assert_allclose(got, ours, rtol=1e-4, atol=1e-6, err_msg=surface.name)  # so the residual, taken of our law, is Mitsuba's
+        targets = _mitsuba._candidates(surface)
+        choice = choose(surface, None, targets)
+        target = targets[choice.name]
+        ours = np.broadcast_to(
+            target.at(geom, {key: value for key, value in choice.values.items() if key not in target.fixed}), got.shape
+        )
+        # so the residual, taken of our law, is Mitsuba's
+        np.testing.assert_allclose(got, ours, rtol=1e-4, atol=1e-6, err_msg=surface.name)
 
 
 @pytest.mark.parametrize("name", ["ward", "paint", "phong", "rough-plastic", *EXAMPLES])
@@ -65,17 +70,21 @@ def test_stated_residual_is_what_mitsuba_shows(name, of):
             made = exporters.export("mitsuba", surface)
         except Refused:
             continue
-        geom, wanted, _ = chosen(surface, None)
+        geom, wanted, _ = judged_over(surface, None)
         shown = rms_ln(evaluated(mitsuba.load_string(made.content), geom), wanted)
-        if surface.mirror_most[1] > 1e-6:  # an ideal mirror beside it has a residual of its own, and the larger is stated
+        if (
+            surface.mirror_most[1] > 1e-6
+        ):  # an ideal mirror beside it has a residual of its own, and the larger is stated
             assert shown < 1.001 * made.statement.rms_ln, surface.name
         else:
-            assert shown == pytest.approx(made.statement.rms_ln, rel=1e-3), surface.name
+            assert shown == pytest.approx(made.statement.rms_ln, rel=1e-3, abs=SINGLE), surface.name
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_table_agrees_to_one_percent_off_the_peak(name, of, tmp_path):
-    """Every direction that is 3 degrees or more from the mirror direction, or what the note says where that cannot be held."""
+    """Every direction that is 3 degrees or more from the mirror direction, or what the note says where that cannot be
+    held.
+    """
     geom = directions()
     for surface in of(name):
         made = exporters.export("rgl", surface)
@@ -84,23 +93,31 @@ def test_table_agrees_to_one_percent_off_the_peak(name, of, tmp_path):
         wanted = blurred(surface)[0].rgb(geom)
         counted = (wanted > 1e-3) & (geom.mirror_distance2 > np.radians(3) ** 2)
         stated = float(re.search(r"within ([\d.e+]+) % of the model", made.statement.notes[0])[1]) / 100
-        assert counted.sum() > 60 and np.abs(got[counted] / wanted[counted] - 1).max() < max(0.01, 1.5 * stated), surface.name
+        assert counted.sum() > 60 and np.abs(got[counted] / wanted[counted] - 1).max() < max(0.01, 1.5 * stated), (
+            surface.name
+        )
         if "1 % could not be held" in made.statement.notes[0]:
-            assert set(surface.laws) <= {"phong", "phong-lewis", "lafortune"}, surface.name  # without a body they fall to 0 within sight
+            assert set(surface.term_names) <= {"phong", "phong-lewis", "lafortune"}, (
+                surface.name
+            )  # without a body they fall to 0 within sight
         else:
             assert stated <= 0.01
 
 
 def test_spectral_table_agrees_at_its_wavelengths(tmp_path):
-    from .conftest import Surface, models
+    from .conftest import ColouredSurface, models
 
     bands = np.array([0.45, 0.5, 0.55, 0.6, 0.65, 0.7])
     values = {"lambertian.albedo": np.linspace(0.1, 0.8, 6), "he-torrance.sigma": 0.6, "he-torrance.slope": 0.1}
-    surface = Surface(models.get("lambertian+he-torrance"), values, tuple(f"{1e3 * um:.0f}nm" for um in bands), bands)
+    surface = ColouredSurface(
+        models.get("lambertian+he-torrance"), values, tuple(f"{1e3 * um:.0f}nm" for um in bands), bands
+    )
     (tmp_path / "table.bsdf").write_bytes(exporters.export("rgl-spectral", surface).content)
     mitsuba.set_variant("scalar_spectral")
     geom = directions(300)
-    got = evaluated(mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom, [450, 550, 600, 700])
+    got = evaluated(
+        mitsuba.load_dict({"type": "measured", "filename": str(tmp_path / "table.bsdf")}), geom, [450, 550, 600, 700]
+    )
     wanted = blurred(surface)[0].spectral(geom)[:, [0, 2, 3, 5]]
     away = geom.mirror_distance2[:, 0] > np.radians(3) ** 2
     assert np.abs(got / wanted - 1)[away].max() < 0.01
@@ -115,12 +132,16 @@ def test_table_is_importance_sampled(name, surfaces, tmp_path):
     si.wavelengths = []
     si.wi = [np.sin(0.6), 0, np.cos(0.6)]
     rng = np.random.default_rng(3)
-    weights = np.array([np.array(bsdf.sample(mitsuba.BSDFContext(), si, 0.5, rng.random(2))[1])[1] for _ in range(4000)])
+    weights = np.array(
+        [np.array(bsdf.sample(mitsuba.BSDFContext(), si, 0.5, rng.random(2))[1])[1] for _ in range(4000)]
+    )
     u, v = (np.arange(400) + 0.5) / 400, (np.arange(800) + 0.5) / 800
     theta, phi = np.degrees(np.arccos(np.sqrt(1 - u)))[:, None], (360 * v)[None, :]
-    from brdfguide.geometry import Geometry, rows
+    from brdfguide.physics.geometry import Geometry, rows
 
-    geom = rows(Geometry.from_degrees(np.degrees(0.6), 0.0, *(each.ravel() for each in np.broadcast_arrays(theta, phi))))
+    geom = rows(
+        Geometry.from_degrees(np.degrees(0.6), 0.0, *(each.ravel() for each in np.broadcast_arrays(theta, phi)))
+    )
     albedo = np.pi * np.mean(blurred(surfaces[name])[0].rgb(geom)[:, 1])
     assert np.mean(weights) == pytest.approx(albedo, rel=0.04)
     assert np.std(weights) < 1.0 * albedo

@@ -1,12 +1,18 @@
-"""Nodes of tables: the warp is its own inverse's inverse, and lines between nodes miss a function by no more than was allowed."""
+"""Nodes of tables: the warp is its own inverse's inverse, and lines between nodes miss a function by no more than was
+allowed.
+"""
 
 import numpy as np
 import pytest
 
-from brdfguide.exporters._placement import GROWTH, Warp, density, march
+from brdfguide.exporters.tables.placement import GROWTH, Warp, density, march
 
 U = np.linspace(0.0, 1.0, 1001)
-SHAPES = {"narrow": lambda u: 0.01 + np.exp(-((u / 0.02) ** 2)), "growing": lambda u: 1e-4 + np.exp(8 * u), "cosine": lambda u: np.cos(1.5 * u)}
+SHAPES = {
+    "narrow": lambda u: 0.01 + np.exp(-((u / 0.02) ** 2)),
+    "growing": lambda u: 1e-4 + np.exp(8 * u),
+    "cosine": lambda u: np.cos(1.5 * u),
+}
 
 
 def test_warp_and_back_is_where_it_began():

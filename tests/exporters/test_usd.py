@@ -3,7 +3,7 @@
 import pytest
 
 from brdfguide import exporters
-from brdfguide.exporters._base import Refused
+from brdfguide.exporters.exporter import Refused
 
 from .conftest import NAMES
 

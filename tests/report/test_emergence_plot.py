@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
-from brdfguide import cli, roughness
-from brdfguide.report import emergence, emergence_plot
+from brdfguide import cli
+from brdfguide.physics import emergence as roughness
+from brdfguide.report.documents import emergence
+from brdfguide.report.figures import emergence as emergence_plot
+from brdfguide.report.figures import style
 
 
 def lines_of(figure):
@@ -21,17 +24,24 @@ def test_the_answers_lie_on_the_figure_and_the_criterion_on_its_contour():
     solid = [line for line in axes.lines if len(line.get_xdata()) > 2 and line.get_linestyle() == "-"]
     assert len(solid) == 6  # one contour for each angle of Table 2
     on_contour = solid[3]
-    assert np.exp(np.interp(np.log(tau), np.log(on_contour.get_xdata()), np.log(on_contour.get_ydata()))) == pytest.approx(sigma, rel=1e-3)
+    assert np.exp(
+        np.interp(np.log(tau), np.log(on_contour.get_xdata()), np.log(on_contour.get_ydata()))
+    ) == pytest.approx(sigma, rel=1e-3)
 
 
 def test_eq_3_is_drawn_only_for_the_eye_it_was_made_for():
-    dotted = lambda figure: sum(len(line.get_xdata()) > 2 and line.get_linestyle() != "-" for line in figure.axes[0].lines)  # noqa: E731
+    def dotted(figure):
+        return sum(len(line.get_xdata()) > 2 and line.get_linestyle() != "-" for line in figure.axes[0].lines)
+
     assert dotted(emergence_plot.figure14(emergence.document(angle=80.0))) == 6
     assert dotted(emergence_plot.figure14(emergence.document(angle=80.0, pupil_mm=5.0))) == 0
 
 
 def test_an_angle_between_the_contours_gets_its_own():
-    assert len(emergence_plot.figure14(emergence.document(angle=70.0)).axes[0].lines) == len(emergence_plot.figure14(emergence.document(angle=75.0)).axes[0].lines) + 1
+    assert (
+        len(emergence_plot.figure14(emergence.document(angle=70.0)).axes[0].lines)
+        == len(emergence_plot.figure14(emergence.document(angle=75.0)).axes[0].lines) + 1
+    )
 
 
 @pytest.mark.parametrize("suffix, begins", [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
@@ -42,7 +52,7 @@ def test_plot_option_writes_a_whole_picture(tmp_path, capsys, suffix, begins):
     assert end.value.code == 0 and f"wrote {path}" in capsys.readouterr().err
     first = path.read_bytes()
     assert first.startswith(begins)
-    assert emergence_plot.style.render(emergence_plot.figure14(emergence.document(angle=80.0)), suffix) == first
+    assert style.figure_file(emergence_plot.figure14(emergence.document(angle=80.0)), suffix) == first
 
 
 def test_an_unknown_kind_of_picture_is_refused_before_anything_is_printed(tmp_path, capsys):

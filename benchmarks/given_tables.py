@@ -1,0 +1,66 @@
+"""The tables that measurements at hand make: what the benchmarks on plans and on the plane of incidence judge by.
+
+Real measurements lie in the folder named by BRDFGUIDE_DATA; the examples' samples are there always.
+"""
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from brdfguide.data import subsample
+from brdfguide.data.measurement import Measurement
+from brdfguide.fitting.job import Job, read_for_fit
+
+ROOT = Path(__file__).resolve().parent.parent
+DATA = Path(os.environ.get("BRDFGUIDE_DATA", ROOT.parent / "shared" / "data"))
+TABLES = {
+    "garnet red (Cornell)": "cornell/garnet_red.brdf",
+    "cayman (Cornell)": "cornell/cayman.brdf",
+    "white paper (RGL)": "rgl/paper_white_rgb.bsdf",
+    "sunflower vinyl (RGL)": "rgl/cg_sunflower_rgb.bsdf",
+    "yellow chrome (RGL)": "rgl/vch_golden_yellow_rgb.bsdf",
+    "colour change (RGL)": "rgl/cc_ibiza_sunset_rgb.bsdf",
+    "red plastic (MERL)": "merl_format/red-plastic.binary",
+    "bronze (MERL)": "merl_format/alum-bronze.binary",
+    "PTFE (NIST)": "nist/PTFE.data.csv",
+}
+THETA_MAX_DEG = 80.0
+MOST, JUDGED = 40_000, 4_000  # directions to choose from, and to judge by
+CHANNELS = 3
+
+
+def tables():
+    """(name, Measurement to choose from, Measurement to judge by) of every table that is there, up to 80 degrees."""
+    for name, path in TABLES.items():
+        file = next((each for each in (DATA / path, DATA / f"{path}.xz") if each.exists()), None)
+        if file is None:
+            continue
+        whole = read_for_fit(file, Job(reading=(("theta_max", THETA_MAX_DEG),), anyway=True))
+        count = len(whole.channels)
+        if count > CHANNELS:
+            whole = whole.of_channels(np.array([count // 6, count // 2, 5 * count // 6]))
+        whole = _some(whole[whole.has_value], MOST)
+        yield name, whole, _some(whole, JUDGED)
+
+
+def _some(measurement: Measurement, most: int) -> Measurement:
+    if len(measurement.brdf) <= most:
+        return measurement
+    return measurement[subsample.representative_rows(measurement, most)]
+
+
+def nearest(table: Measurement, geom) -> np.ndarray:
+    """Rows of the table nearest to some directions, each once; light and detector count alike."""
+    have, want = _vectors(table.geom), _vectors(geom)
+    return np.unique([int(np.argmin(np.sum((have - each) ** 2, axis=1))) for each in want])
+
+
+def _vectors(geom) -> np.ndarray:
+    turn = np.radians(geom.phi_deg)
+    parts = (geom.sin_i, geom.cos_i, geom.sin_r * np.cos(turn), geom.sin_r * np.abs(np.sin(turn)), geom.cos_r)
+    return np.concatenate(np.broadcast_arrays(*parts), axis=1)
+
+
+def rms(residuals) -> float:
+    return float(np.sqrt(np.nanmean(np.asarray(residuals, float) ** 2)))

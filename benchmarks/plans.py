@@ -1,0 +1,87 @@
+"""Plans against whole tables: what a law fitted to a few planned directions misses over all of them.
+
+    python benchmarks/plans.py [--draws 5]
+
+For each given table nine laws are fitted to the directions of the table nearest to a plan's, and to the whole table;
+told is the ratio of the two errors over the whole table, the median over the laws. `random` draws directions of the
+table itself, of which no plan knows. `8 then 8` measures eight, and plans eight more after them.
+"""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+import numpy as np
+
+from benchmarks.given_tables import nearest, rms, tables
+from brdfguide import models
+from brdfguide.fitting import fit as fitting
+from brdfguide.fitting import hypotheses, planning, ranking
+from brdfguide.fitting.fit import ln_residuals
+from brdfguide.fitting.goniometer import Goniometer, hemisphere
+
+LAWS = [
+    models.get(name)
+    for name in (
+        *("lambertian+ggx", "lambertian+beckmann", "lambertian+cook-torrance", "lambertian+ward", "lambertian+blinn"),
+        *("lambertian+lafortune", "lambertian+he-torrance", "lambertian+student-t", "oren-nayar+ggx"),
+    )
+]
+BARS = {"8": 1.15, "16": 1.05, "32 in plane": 1.15}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--draws", type=int, default=5, help="random draws of 16 directions")
+    asked = parser.parse_args()
+    target, unknown = hemisphere(80.0), hypotheses.unknown()
+    blind = {
+        "8": planning.plan_everywhere(target, Goniometer(), unknown, 8).geom,
+        "16": planning.plan_everywhere(target, Goniometer(), unknown, 16).geom,
+        "32 in plane": planning.plan_everywhere(target, Goniometer(in_plane=True), unknown, 32).geom,
+    }
+    print("| table | 8 | 16 | 8 then 8 | 16 among its own | 32 in plane | 16 random (worst) |")
+    print("|---|---|---|---|---|---|---|")
+    rows = [_of_table(*each, blind, asked.draws) for each in tables()]
+    for name, bar in BARS.items():
+        print(f"{name}: at most {bar} on {sum(row[name] <= bar for row in rows)} of {len(rows)} tables")
+
+
+def _of_table(name, table, judged, blind, draws: int) -> dict:
+    whole = {each.name: rms(each.residuals) for each in fitting.fit_all(LAWS, judged)}
+
+    def cost(rows) -> float:
+        found = fitting.fit_all(LAWS, table[rows])
+        return float(np.median([rms(ln_residuals(each.surface, judged)) / whole[each.name] for each in found]))
+
+    told = {plan: cost(nearest(table, geom)) for plan, geom in blind.items()}
+    told["8 then 8"] = cost(_sequential(table, blind["8"]))
+    among = planning.some_directions(table)
+    own = planning.plan_everywhere(
+        planning.evenly(among, 80.0), Goniometer(), hypotheses.unknown(), 16, among=among
+    ).geom
+    told["16 among its own"] = cost(nearest(table, own))
+    random = np.random.default_rng(26)
+    chance = [cost(np.sort(random.choice(len(table.brdf), 16, replace=False))) for _ in range(draws)]
+    cells = [f"{told[each]:.3f}" for each in ("8", "16", "8 then 8", "16 among its own", "32 in plane")]
+    print(f"| {name} | {' | '.join(cells)} | {np.median(chance):.3f} ({max(chance):.2f}) |", flush=True)
+    return told
+
+
+def _sequential(table, first) -> np.ndarray:
+    """Rows of eight directions, and of eight planned after they were measured."""
+    rows = nearest(table, first)
+    few = table[rows]
+    ranked = ranking.rank(fitting.fit_all(LAWS, few), few)
+    geom = planning.measured_part(few)
+    known = hypotheses.after(ranked)
+    more = planning.plan_everywhere(hemisphere(80.0), Goniometer(), known, 8, measured=geom).geom
+    return np.union1d(rows, nearest(table, more))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""From what a person sees or measured to a model, with reasons."""

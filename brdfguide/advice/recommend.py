@@ -1,0 +1,284 @@
+"""From a described Material to models with start values, and why, by the guidelines.
+
+`for_fit` when it was measured too: guidelines choose and start, the fit decides.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache, partial
+
+import numpy as np
+
+from .. import models as catalogue
+from ..models import Composite, cost
+from ..models.candidates import KINDS, as_metal, of_kind
+from ..models.surface import Surface
+from ..models.visible_change import begins_to_show
+from ..physics import gloss
+from ..physics.geometry import Geometry, in_plane, rows
+from . import guidelines, material, start_values
+from .guidelines.guideline import Advice
+from .inference import Inference
+from .material import Material, said_to_be_grained
+
+# what leaving out an observation changes
+EFFECTS = {
+    "decides": "without it the answer is another",
+    "narrows": "without it the answer is the same, less sure",
+    "confirms": "the rest says the same",
+    "contradicts": "the rest says otherwise",
+    "none": "nothing here depends on it",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """One sum with values ready to type, and what to expect of it."""
+
+    model: Composite
+    start: Mapping
+    why: str
+    rules: tuple[str, ...]
+    cannot: tuple[str, ...]
+    rise: start_values.Rise
+    gloss: Mapping[int, float] | None  # units that it would read; None for a metal, which gloss is not defined for
+    ns_per_sample: float
+
+    @cached_property
+    def surface(self) -> Surface:
+        return Surface.of_colours(self.model, self.start)
+
+    @property
+    def shows(self) -> dict[str, float | None]:
+        """From which relative change on each of its numbers begins to look different, see `models.visible_change`."""
+        free = {*self.model.free, *(key for key, each in self.model.parameters.items() if each.free)}
+        return begins_to_show(self.surface, [key for key in self.start if key in free])
+
+
+@dataclass(frozen=True, eq=False)
+class Recommendation:
+    """A filled material with what was said about it; `candidates` best first, empty outside the domain."""
+
+    material: Material
+    advice: tuple[Advice, ...]
+    silent: tuple
+    status: str  # inside, flagged, outside
+    verdict: str  # metal, dielectric, cannot tell from this
+    evidence: str
+    candidates: tuple[Proposal, ...]
+    left_out: Mapping[str, str]
+    effects: Mapping[str, str]  # key of an observation -> what leaving it out changes, see EFFECTS
+    rests_on: Mapping[str, tuple[str, ...]]  # rule -> keys without which it would be silent or say something else
+    inference: Inference | None  # from what was read of roughness and index; None: nothing was
+
+    @property
+    def reasons(self) -> tuple[Advice, ...]:
+        return tuple(each for each in self.advice if each.domain)
+
+    @property
+    def conflicts(self) -> tuple[Advice, ...]:
+        return tuple(each for each in self.advice if each.conflict)
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """Observations on which nothing depends."""
+        return tuple(key for key, effect in self.effects.items() if effect == "none")
+
+    @property
+    def guesses(self) -> tuple[Advice, ...]:
+        return tuple(each for each in self.advice if each.guess)
+
+
+def recommend(described: Material, anyway: bool = False, names=None) -> Recommendation:
+    """What the guidelines make of a description.
+
+    Outside the domain there are no candidates unless `anyway`; `names` are tried instead of their choice.
+    """
+    consultation = guidelines.consult(described)
+    filled, advice = consultation.material, consultation.advice
+    status = _status(advice)
+    chosen, left_out = _choose(advice)
+    if names is not None:
+        chosen = dict.fromkeys(names, ("as you asked", ()))
+    shown = (
+        ()
+        if status == "outside" and not anyway
+        else tuple(_candidate(name, why, by, filled) for name, (why, by) in chosen.items())
+    )
+    verdict, evidence = _verdict(filled, advice)
+    effects, rests_on = _effects(described)
+    return Recommendation(
+        filled,
+        advice,
+        consultation.silent,
+        status,
+        verdict,
+        evidence,
+        shown,
+        left_out,
+        effects,
+        rests_on,
+        filled.inference,
+    )
+
+
+def for_fit(recommendation: Recommendation, kind: str | None) -> tuple[Composite, ...]:
+    """The sums to fit to a surface of this kind (None: not known); the guidelines' picks first, with their starts."""
+    picks = {}
+    for each in recommendation.candidates:
+        numbers = {key: value for key, value in each.start.items() if np.ndim(value) == 0}
+        model = as_metal(each.model) if kind == "metal" else each.model
+        picks[each.model.name] = replace(model, start={**numbers, **{key: model.start[key] for key in model.free}})
+    rest = [each for each in of_kind(kind) if each.name not in picks]
+    finite = [each for each in picks.values() if any(not term.model.is_mirror for term in each.terms)]
+    return tuple(finite) + tuple(rest)
+
+
+def _status(advice) -> str:
+    found = {each.domain for each in advice}
+    return next((status for status in ("outside", "flagged") if status in found), "inside")
+
+
+def _verdict(filled: Material, advice) -> tuple[str, str]:
+    """Metal, dielectric or neither, and from what."""
+    if filled.kind in KINDS:
+        said = next((each.because for each in advice if each.rule == filled.filled_by.get("kind")), "kind, as observed")
+        return filled.kind, said
+    said = next(
+        (
+            each.because
+            for each in advice
+            if each.rule in ("evidence_disagrees", "metal_or_dielectric", "kind_cannot_be_told")
+        ),
+        "",
+    )
+    return "cannot tell from this", said
+
+
+def _choose(advice) -> tuple[dict[str, tuple[str, tuple[str, ...]]], dict[str, str]]:
+    """Preferred sums in the rules' order less those that a rule dropped: (name -> (why, rules)), (dropped -> why)."""
+    left_out = {name: why for each in advice for name, why in each.drops.items()}
+    if "lambertian" in left_out:
+        left_out |= {each.name: left_out["lambertian"] for each in catalogue.every() if each.is_body}
+    wanted: dict[str, tuple[str, tuple[str, ...]]] = {}
+    for each in advice:
+        for place, name in enumerate(each.prefers):
+            why, by = wanted.get(name, (each.why.get(name) or (_otherwise(name) if place else each.says), ()))
+            wanted[name] = why, (*by, each.rule)
+    kept = {
+        name: said
+        for name, said in wanted.items()
+        if not any(word.partition(":")[0] in left_out for word in name.split("+"))
+    }
+    return kept or dict(list(wanted.items())[:1]), left_out
+
+
+def _otherwise(name: str) -> str:
+    """Why one would take a sum that is not the first choice: what its own lobe is good for."""
+    terms = catalogue.get(name).terms
+    law = next((term.model for term in terms if term.model.is_lobe), terms[-1].model)
+    beside = " and ".join(term.label for term in terms if term.model is not law)
+    return f"otherwise, with {beside}: {law.summary}" if beside else f"otherwise: {law.summary}"
+
+
+def _candidate(name: str, why: str, by: tuple[str, ...], filled: Material) -> Proposal:
+    model = catalogue.get(name)
+    start = start_values.start_values(model, filled)
+    models = [term.model for term in model.terms]
+    cannot = [
+        f"{each.name}: {each.cannot}" for each in models if each.cannot and (not each.is_body or len(models) == 1)
+    ]
+    if filled.emerges and not model.has_mirror:
+        cannot.append("cannot show the mirror image that was seen to emerge")
+    if filled.retroreflective and not any(each.returns_light for each in models):
+        cannot.append("cannot shine back toward the light")
+    if said_to_be_grained(filled) and not any(each.turns for each in models):
+        cannot.append("cannot change as the sample turns")
+    surface = Surface.of_colours(model, start)
+    units = None if filled.kind == "metal" or start_values.open_metal(model, filled) else predicted_gloss(surface)
+    return Proposal(
+        model, start, why, by, tuple(cannot), start_values.grazing_growth(surface), units, ns_per_direction(name)
+    )
+
+
+def predicted_gloss(surface: Surface) -> dict[int, float]:
+    """Gloss units at 20, 60 and 85 degrees, in the middle channel."""
+    middle, out = surface.middle, {}
+    for angle in gloss.ANGLES:
+        mirror = float(middle.mirror(in_plane([[angle]], angle))[0, 0])
+        out[angle] = float(gloss.units(middle.brdf, angle, mirror, quick=True)[0])
+    return out
+
+
+@lru_cache(maxsize=64)
+def ns_per_direction(name: str) -> float:
+    """Nanoseconds per direction of a sum at its defaults, the best of three blocks of 2048, on this machine."""
+    model = catalogue.get(name)
+    theta = np.linspace(1.0, 85.0, 16)
+    geom = rows(Geometry.from_degrees(theta[:, None], 0.0, theta, np.linspace(90.0, 270.0, 8)[:, None, None]))
+    values = model.defaults()
+    evaluators = {name: partial(model, values=values)}
+    cost.interleaved(evaluators, lambda: geom, 1)  # what a first call forms does not count
+    return min(cost.interleaved(evaluators, lambda: geom, 3)[name]) / len(geom)
+
+
+def _effects(described: Material) -> tuple[dict[str, str], dict[str, tuple[str, ...]]]:
+    """What leaving out each observation changes: of the answer, and of each rule; found by leaving it out."""
+    whole, effects = _answer(described), {}
+    rests_on: dict[str, tuple[str, ...]] = {}
+    for key in observations(described.given):
+        without = _answer(material.from_values(without_key(described.given, key), described.name))
+        changed = [rule for rule, said in whole.said.items() if without.said.get(rule) != said]
+        for rule in changed:
+            rests_on[rule] = (*rests_on.get(rule, ()), key)
+        if key in whole.set_aside:
+            effects[key] = "contradicts"
+        elif without.picks != whole.picks:
+            effects[key] = "decides"
+        elif without.intervals != whole.intervals:
+            effects[key] = "narrows"
+        else:
+            effects[key] = "confirms" if changed or without.said.keys() - whole.said.keys() else "none"
+    return effects, rests_on
+
+
+def observations(given: Mapping) -> list[str]:
+    """Dotted paths of what was observed: readings of one instrument one by one, other groups whole."""
+    out = []
+    for key, value in given.items():
+        if key in ("name", "about", "sources", "measurements", "doubts"):
+            continue
+        out += [f"{key}.{inner}" for inner in value] if key in ("gloss", "stylus") else [key]
+    return out
+
+
+def without_key(given: Mapping, key: str) -> dict:
+    """What was observed, but for one dotted path."""
+    outer, _, inner = key.partition(".")
+    rest = {name: value for name, value in given.items() if name != outer}
+    left = {name: value for name, value in given[outer].items() if name != inner} if inner else {}
+    return {**rest, outer: left} if left else rest
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """An answer without its costly extras, to be compared with another."""
+
+    picks: tuple  # verdict, domain, sums with start values
+    intervals: tuple
+    said: Mapping[str, tuple[str, str]]  # rule -> what it says, and why
+    set_aside: tuple[str, ...]
+
+
+def _answer(described: Material) -> _Answer:
+    consultation = guidelines.consult(described)
+    advice, filled = consultation.advice, consultation.material
+    chosen, _ = _choose(advice)
+    starts = tuple((name, tuple(start_values.start_values(catalogue.get(name), filled).items())) for name in chosen)
+    found = filled.inference
+    return _Answer(
+        (_verdict(filled, advice)[0], _status(advice), starts),
+        tuple((each.name, tuple(each.numbers.items())) for each in found.laws) if found else (),
+        {each.rule: (each.says, each.because) for each in advice},
+        tuple(found.set_aside) if found else (),
+    )

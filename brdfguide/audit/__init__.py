@@ -1,0 +1,1 @@
+"""Whether the laws hold where they must, and what they cost."""

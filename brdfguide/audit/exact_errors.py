@@ -1,0 +1,286 @@
+"""Errors of a row from its exact residuals: every sum that an answer tells, once more and with no code of the fit.
+
+The orders and shares that the sums are taken in (incidences, blocks of neighbours, rings of a sphere) are formed here
+anew from the angles [deg], as the pages on errors say it.
+"""
+
+from collections import Counter, defaultdict
+from dataclasses import dataclass
+from functools import cached_property
+
+from mpmath import cbrt, cos, exp, fsum, log, mpf, pi, radians, sin, sqrt
+
+from .exact_surface import ExactReading, ExactSurface
+
+SMALLEST = mpf("1e-300")  # a law that gives less is taken here
+LARGEST = 1e100  # [1/sr]; beyond, and below its inverse, is no measurement
+LIMIT_DEG = 80  # beyond, S does not look
+APART_DEG = 0.25  # between two incidences of scans
+HELD_DEG = 1.0  # how far an incidence wanders that was held
+MOST_SCANS = 64  # with more incidences the order alone cuts blocks
+PIECES = 8  # blocks of one incidence
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """What was measured: angles [deg] (theta_i, phi_i, theta_r, phi_r), values [1/sr] and where they are told."""
+
+    angles: tuple[tuple[float, float, float, float], ...]
+    values: tuple[tuple[float, ...], ...]  # (samples, channels), NaN where there is none
+    limits: tuple[float, ...]  # of each channel, below which a value only says that it is small
+    wavelengths: tuple[float, ...]  # [µm]
+    solid_angle: float | None = None
+    by_scan: bool = False  # every incidence counts alike
+
+    @cached_property
+    def sights(self) -> list[ExactReading]:
+        return [ExactReading(each, self.solid_angle) for each in self.angles]
+
+    @cached_property
+    def told(self) -> list[list[bool]]:
+        """Where a value is positive, of a size, above the horizon and clear of the dark level."""
+        return [
+            [1 / LARGEST < v < LARGEST and v >= limit and up for v, limit in zip(row, self.limits, strict=True)]
+            for row, up in zip(self.values, self._lit, strict=True)
+        ]
+
+    @cached_property
+    def _lit(self) -> list[bool]:
+        return [theta_i < 90 and theta_r < 90 for theta_i, _, theta_r, _ in self.angles]
+
+    @cached_property
+    def exact(self) -> list[list]:
+        """The values as the doubles they are; None where they are not told."""
+        return [
+            [mpf(v) if known else None for v, known in zip(row, told, strict=True)]
+            for row, told in zip(self.values, self.told, strict=True)
+        ]
+
+    @cached_property
+    def ln(self) -> list[list]:
+        return [[None if v is None else log(v) for v in row] for row in self.exact]
+
+    @cached_property
+    def cube_roots(self) -> list[list]:
+        return [[None if v is None else cbrt(v) for v in row] for row in self.exact]
+
+    @cached_property
+    def cosine_weighed(self) -> list[list]:
+        """f cos θi cos θr."""
+        cosines = [sight.pair.cos_i * sight.pair.cos_r for sight in self.sights]
+        return [[None if v is None else v * c for v in row] for row, c in zip(self.exact, cosines, strict=True)]
+
+    @cached_property
+    def mean_cube_root(self):
+        return exact_rms(self.cube_roots, self.share)
+
+    @cached_property
+    def mean_cosine_weighed(self):
+        return exact_rms(self.cosine_weighed, self.share)
+
+    @cached_property
+    def share(self) -> list:
+        """How much each direction counts, mean 1 over those with a value."""
+        known = [any(row) for row in self.told]
+        if not self.by_scan:
+            return [1] * len(self.angles)
+        number = _held([each[0] for each in self.angles])
+        count = Counter(place for place, has in zip(number, known, strict=True) if has)
+        most = max(count.values())
+        raw = [_of_scan(count[place], most) for place in number]
+        mean = fsum(each for each, has in zip(raw, known, strict=True) if has) / sum(known)
+        return [each / mean for each in raw]
+
+    @cached_property
+    def signed_theta_r(self) -> list[float]:
+        """[deg], positive on the mirror side."""
+        out = []
+        for theta_i, phi_i, theta_r, phi_r in self.angles:
+            toward = -cos(radians(mpf(phi_r) - mpf(phi_i)))
+            out.append(theta_r if toward >= -(mpf(10) ** -14) or theta_i == 0 and toward > 0 else -theta_r)
+        return out
+
+
+def _of_scan(count: int, most: int):
+    """Scans of fewer than five directions are none, and gain nothing by being few."""
+    return min(mpf(most) / (count if count >= 5 else most), mpf(10))
+
+
+def _held(angles: list[float]) -> list[int]:
+    """The number of the held angle that each belongs to."""
+    order = sorted(range(len(angles)), key=lambda place: angles[place])
+    number, numbers = 0, [0] * len(angles)
+    for before, place in zip([order[0], *order], order, strict=False):
+        number += angles[place] - angles[before] > APART_DEG
+        numbers[place] = number
+    spans = defaultdict(list)
+    for angle, place in zip(angles, numbers, strict=True):
+        spans[place].append(angle)
+    if max(max(each) - min(each) for each in spans.values()) > HELD_DEG:
+        whole = sorted({round(angle) for angle in angles})
+        return [whole.index(round(angle)) for angle in angles]
+    return numbers
+
+
+def exact_residuals(surface: ExactSurface, data: Readings) -> list[list]:
+    """ln(model/data) in every channel; None where nothing is told."""
+    out = []
+    for sight, row in zip(data.sights, data.ln, strict=True):
+        out.append([
+            None if ln is None else log(max(sight.reading(surface, c, data.wavelengths[c]), SMALLEST)) - ln
+            for c, ln in enumerate(row)
+        ])  # fmt: skip
+    return out
+
+
+def exact_rms(rows: list[list], share: list) -> mpf:
+    """Root mean square over what is told, each direction by its share."""
+    squares = [s * v * v for row, s in zip(rows, share, strict=True) for v in row if v is not None]
+    return sqrt(fsum(squares) / len(squares))
+
+
+def by_incidence(rows: list[list], data: Readings) -> dict[float, mpf]:
+    """rms ln at each incidence [deg], in steps of 10 where there are more than twenty."""
+    angles = [_tenth(each[0]) for each in data.angles]
+    if len(set(angles)) > 20:
+        angles = [float(round(angle / 10) * 10) for angle in angles]
+    groups: dict[float, list] = defaultdict(list)
+    for angle, row in zip(angles, rows, strict=True):
+        groups[angle] += [v * v for v in row if v is not None]
+    return {angle: sqrt(fsum(each) / len(each)) for angle, each in sorted(groups.items()) if each}
+
+
+def _tenth(angle: float) -> float:
+    return round(10 * angle) / 10
+
+
+def on_scales(rows: list[list], data: Readings) -> dict[str, mpf]:
+    """The error on every scale, relative to the data's own rms on it where the scale is not logarithmic."""
+    third, thrice = mpf(1) / 3, mpf(300)
+    parts: dict[str, list] = {"cube-root": [], "relative": [], "cosine": []}
+    for row, roots, bright in zip(rows, data.cube_roots, data.cosine_weighed, strict=True):
+        thirds = [None if v is None else exp(third * min(v, thrice)) for v in row]
+        told = [(q, r, b) for q, r, b in zip(thirds, roots, bright, strict=True) if q is not None]
+        parts["cube-root"].append([r * (q - 1) for q, r, _ in told])
+        parts["relative"].append([q**3 - 1 for q, _, _ in told])
+        parts["cosine"].append([b * (q**3 - 1) for q, _, b in told])
+    errors = {name: exact_rms(each, data.share) for name, each in parts.items()}
+    errors["cube-root"] /= data.mean_cube_root
+    errors["cosine"] /= data.mean_cosine_weighed
+    return errors
+
+
+def exact_behind(one: list[list], best: list[list], data: Readings) -> tuple[mpf, mpf]:
+    """How far one rms lies behind the other, and the standard error of that between blocks of neighbours."""
+    roots = [sqrt(each) for each in data.share] if data.by_scan else data.share
+    pairs = [
+        [(root * a, root * b) for a, b in zip(row, other, strict=True) if a is not None and b is not None]
+        for row, other, root in zip(one, best, roots, strict=True)
+    ]
+    count = max(sum(map(len, pairs)), 1)
+    total = sum(sqrt(fsum(pair[end] ** 2 for row in pairs for pair in row) / count) for end in (0, 1))
+    power = fsum((a - b) ** 2 for row in pairs for a, b in row)
+    if total == 0 or power == 0:
+        return mpf(0), mpf(0)
+    share = fsum(b * (a - b) for row in pairs for a, b in row) / power
+    sums: dict = defaultdict(mpf)
+    leverage: dict = defaultdict(mpf)
+    for block, row in zip(_blocks(data), pairs, strict=True):
+        for a, b in row:
+            sums[block] += 2 * (a - b) * (b - share * (a - b))
+            leverage[block] += (a - b) ** 2 / power
+    freedom = max(1 / fsum(each**2 for each in leverage.values()) - 1, mpf(1))
+    student = 1 + mpf("1.25") / freedom + mpf("1.53") / freedom**2
+    spread = sqrt(fsum(sums[block] ** 2 / max(1 - leverage[block], mpf("1e-3")) for block in sums))
+    return power * (1 + 2 * share) / count / total, student * spread / count / total
+
+
+def _blocks(data: Readings) -> list[int]:
+    """Which neighbours along a scan err together."""
+    theta = [_tenth(each[0]) for each in data.angles]
+    azimuth = [_tenth(abs((each[3] - each[1] + 180) % 360 - 180)) for each in data.angles]
+    order = sorted(range(len(theta)), key=lambda place: (theta[place], azimuth[place], data.signed_theta_r[place]))
+    groups = defaultdict(list)
+    for place in order:
+        groups[theta[place]].append(place)
+    blocks = [0] * len(order)
+    pieces = min(max(len(order) // 50, 4 * PIECES), 256)
+    if len(groups) > MOST_SCANS:
+        for rank, place in enumerate(order):
+            blocks[place] = rank * pieces // len(order)
+        return blocks
+    each = PIECES if len(groups) > 1 else pieces
+    for number, members in enumerate(groups.values()):
+        for rank, place in enumerate(members):
+            blocks[place] = number * each + rank * each // len(members)
+    return blocks
+
+
+@dataclass(frozen=True, eq=False)
+class Ring:
+    """S of grey scans in the plane of incidence: rows that count, their weights, and how bright each looks [L*]."""
+
+    data: Readings
+
+    @cached_property
+    def rows(self) -> list[int]:
+        return [
+            place
+            for place, (angles, row) in enumerate(zip(self.data.angles, self.data.values, strict=True))
+            if max(angles[0], angles[2]) <= LIMIT_DEG + 1e-7 and abs(row[0]) < LARGEST
+        ]
+
+    @cached_property
+    def weights(self) -> list:
+        """cos θi cos θr max(sin min(|r - i|, 90°), sin(step/4)) step over the readings that share an angle."""
+        light = [self.data.angles[place][0] for place in self.rows]
+        view = [self.data.signed_theta_r[place] for place in self.rows]
+        steps = self._steps(light, view)
+        out = []
+        for place, i, r, (step, alike) in zip(self.rows, light, view, steps, strict=True):
+            pair = self.data.sights[place].pair
+            ring = max(sin(radians(min(abs(mpf(r) - mpf(i)), mpf(90)))), sin(step / 4))
+            out.append(pair.cos_i * pair.cos_r * ring * step / alike)
+        return out
+
+    def _steps(self, light, view) -> list:
+        held, moved = _held(light), view
+        sizes = sorted(Counter(held).values())
+        if sizes[len(sizes) // 2] < 3 and max(_held(view)) < max(held):
+            held, moved = _held(view), light
+        scans = defaultdict(list)
+        for rank, place in enumerate(self.rows):
+            scans[held[rank], round(self.data.angles[place][1] % 360) % 360].append(rank)
+        out: list = [None] * len(self.rows)
+        for members in scans.values():
+            alike = Counter(moved[rank] for rank in members)
+            angles = sorted(alike)
+            for rank in members:
+                out[rank] = _gradient(angles, angles.index(moved[rank])), alike[moved[rank]]
+        return out
+
+    def lightness(self, row_residuals: list[list] | None, surface: ExactSurface | None = None) -> list:
+        """116 ∛(π f cos θi) of the data, or of a model by its residuals, by the model itself where nothing is told."""
+        out = []
+        for place in self.rows:
+            value = mpf(self.data.values[place][0])
+            sight = self.data.sights[place]
+            if row_residuals is not None and row_residuals[place][0] is not None:
+                value *= exp(min(row_residuals[place][0], mpf(300)))
+            elif surface is not None:
+                value = sight.reading(surface, 0, self.data.wavelengths[0])
+            out.append(116 * cbrt(max(value, mpf(0)) * pi * sight.pair.cos_i))
+        return out
+
+    def apart(self, one: list, other: list) -> mpf:
+        """S [L*] of two lightnesses."""
+        squares = (w * (a - b) ** 2 for w, a, b in zip(self.weights, one, other, strict=True))
+        return sqrt(fsum(squares) / fsum(self.weights))
+
+
+def _gradient(angles: list[float], place: int):
+    """[rad] between neighbours: half of the two steps beside it, the one step at an end; 1 where it stands alone."""
+    if len(angles) == 1:
+        return mpf(1)
+    before, after = max(place - 1, 0), min(place + 1, len(angles) - 1)
+    return radians(mpf(angles[after]) - mpf(angles[before])) / (after - before)

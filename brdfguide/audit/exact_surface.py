@@ -1,0 +1,157 @@
+"""A fitted surface from the words and numbers of an answer, evaluated by `textbook`: no code of models or fits.
+
+    f = Σ w Σ_terms law(r_w) + ρ(θi)/(cos θi Ω)    over the detector's cone, if it has one
+
+The expression is parsed anew, so that a mistake in how the program understands its own answers shows as well.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from mpmath import asin, cos, mpf, pi, radians, sin, sqrt
+
+from . import textbook_grain, textbook_more
+from .textbook import ExactDirections
+
+GRAINED = {"ggx-aniso", "stam", *textbook_grain.LAWS, *textbook_grain.ROUGHER}
+ANGLES = {"tilt": {"lafortune"}, "spread": {"oren-nayar"}, "axis": GRAINED}  # told in degrees, meant in radians
+SHORT = {"he": "he-torrance"}
+KNOWN = {*textbook_more.LAWS, "he-torrance"}  # the others take too long, or stand in no textbook
+COAT = ("coat.n", "coat.depth")
+
+
+class NoLaw(Exception):
+    """A law that is not written down a second time."""
+
+
+@dataclass(frozen=True)
+class TermInAnswer:
+    """One term: a law, where its numbers stand in the answer, and whether a coat lies over it."""
+
+    law: str
+    keys: tuple[tuple[str, str], ...]  # bare name -> key of the answer
+    coated: bool
+
+
+@dataclass(frozen=True, eq=False)
+class ExactSurface:
+    """The model of one row with its values, channel by channel."""
+
+    parts: tuple[TermInAnswer, ...]
+    values: dict  # key -> one number, or one for each channel, as printed
+
+    def at(self, key: str, channel: int):
+        """One number as the double it is."""
+        value = self.values[key]
+        if isinstance(value, list):
+            value = value[channel if len(value) > 1 else 0]
+        return mpf(float(value))
+
+    @cached_property
+    def _inside(self) -> dict:
+        """(part, channel) -> its law's numbers, angles in radians; filled as they are asked for."""
+        return {}
+
+    def _numbers_of(self, part: TermInAnswer, channel: int) -> dict:
+        if (part, channel) not in self._inside:
+            values = {name: self.at(key, channel) for name, key in part.keys}
+            turned = {name: radians(v) for name, v in values.items() if part.law in ANGLES.get(name, ())}
+            self._inside[part, channel] = values | turned
+        return self._inside[part, channel]
+
+    def brdf(self, pair: ExactDirections, channel: int, wavelength):
+        """The finite part [1/sr] in one channel; wavelength [µm]."""
+        return sum((self._part(each, pair, channel, wavelength) for each in self.parts), mpf(0))
+
+    def _part(self, part: TermInAnswer, pair, channel: int, wavelength):
+        values = self._numbers_of(part, channel)
+        if not part.coated:
+            return textbook_more.evaluated(part.law, pair, values, wavelength)
+        n, depth = (self.at(key, channel) for key in COAT)
+        return textbook_more.coated(pair, part.law, values, n, depth, wavelength)
+
+    def mirror(self, pair: ExactDirections, channel: int, wavelength):
+        """Reflectance left to the mirror direction."""
+        total = mpf(0)
+        for part in self.parts:
+            law = textbook_more.MIRRORS.get(part.law)
+            if law is not None and not part.coated:
+                values = {name: self.at(key, channel) for name, key in part.keys}
+                total += law(pair, **values, wavelength=wavelength)
+        if "coat.sigma" in self.values:
+            values = {"n": self.at("coat.n", channel), "k": mpf(0), "sigma": self.at("coat.sigma", channel)}
+            total += textbook_more.smooth_mirror(pair, **values, wavelength=wavelength)
+        return total
+
+
+def surface_of(expression: str, parameters: dict) -> ExactSurface:
+    """A row's `model` and its `parameters`. Raises NoLaw for a law that is not written down here."""
+    values = {key: entry["value"] for key, entry in parameters.items() if not entry.get("derived")}
+    parts: list[TermInAnswer] = []
+    coated = False
+    words = [word.strip() for word in expression.split("+")]
+    for word in words:
+        if word.startswith("coated:"):
+            coated, word = True, word.removeprefix("coated:")
+        name, _, count = word.partition(":")
+        law = SHORT.get(name, name)
+        if law not in KNOWN or "(" in name:
+            raise NoLaw(name)
+        labels = [law] if not count else [f"{law}.{place}" for place in range(1, int(count) + 1)]
+        parts += [TermInAnswer(law, _keys(label, labels[0], values), coated) for label in labels]
+    return ExactSurface(tuple(parts), values)
+
+
+def _keys(label: str, first: str, values: dict) -> tuple[tuple[str, str], ...]:
+    """Its own numbers, and those that it has from the first lobe of its kind."""
+    own = {key.removeprefix(label + "."): key for key in values if key.startswith(label + ".")}
+    names = (key.removeprefix(first + ".") for key in values if key.startswith(first + "."))
+    own |= {name: f"{first}.{name}" for name in names if name not in own}
+    if not own:
+        raise NoLaw(f"{label}, whose numbers stand elsewhere")
+    return tuple(own.items())
+
+
+@dataclass(frozen=True, eq=False)
+class ExactReading:
+    """One pair of directions [deg] as a detector of solid angle Ω [sr] sees it; None: a point."""
+
+    angles: tuple[float, float, float, float]
+    solid_angle: float | None = None
+
+    @cached_property
+    def pair(self) -> ExactDirections:
+        return ExactDirections(*self.angles)
+
+    @cached_property
+    def views(self) -> list:
+        """Weights and directions: the seven-point rule of a disc (Abramowitz and Stegun 25.4.61) on the cap."""
+        if self.solid_angle is None:
+            return [(mpf(1), self.pair)]
+        radius = sqrt(mpf(2) / 3) * self._half_angle
+        theta, phi, (x, y, z) = self.pair.theta_r, self.pair.phi_r, self.pair.r
+        down = (cos(theta) * cos(phi), cos(theta) * sin(phi), -sin(theta))
+        across = (-sin(phi), cos(phi), mpf(0))
+        ring = []
+        for turn in (place * pi / 3 for place in range(6)):
+            toward = [cos(turn) * a + sin(turn) * b for a, b in zip(down, across, strict=True)]
+            moved = [cos(radius) * a + sin(radius) * b for a, b in zip((x, y, z), toward, strict=True)]
+            ring.append((mpf(1) / 8, ExactDirections.from_vectors(self.pair.i, moved)))
+        return [(mpf(1) / 4, self.pair), *ring]
+
+    @cached_property
+    def _half_angle(self):
+        return 2 * asin(sqrt(mpf(self.solid_angle) / (4 * pi)))
+
+    def reading(self, surface: ExactSurface, channel: int, wavelength):
+        """What the detector reports [1/sr]; 0 where the light or the detector is below the horizon."""
+        lit = [(weight, pair) for weight, pair in self.views if pair.cos_i > 0 and pair.cos_r > 0]
+        total = sum((weight * surface.brdf(pair, channel, wavelength) for weight, pair in lit), mpf(0))
+        if self.solid_angle is not None and self._sees_mirror:
+            total += surface.mirror(self.pair, channel, wavelength) / (self.pair.cos_i * mpf(self.solid_angle))
+        return total
+
+    @property
+    def _sees_mirror(self) -> bool:
+        """Whether the mirror direction lies in the cone."""
+        return 2 - 2 * self.pair.cos_m <= mpf(self.solid_angle) / pi

@@ -1,0 +1,286 @@
+"""An answer of `fit` derived again from the numbers it prints and the data: which of them agree, and which do not.
+
+Parameters are taken as printed; from them, with mpmath and the laws of `textbook`, follow residuals, errors,
+differences and what stands beside them. What a fit found on its way (held-out errors, standard errors, floors) cannot
+follow from its answer: that is said, and only the answer's digest holds it.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from mpmath import cos, erfc, expm1, mpf, radians, sin, sqrt, tan, workdps
+
+from ..data.measurement import Measurement
+from ..errors import InputError
+from . import exact_errors
+from .exact_errors import Readings, Ring
+from .exact_surface import NoLaw, surface_of
+
+DIGITS = 30  # of the arithmetic
+CLOSE = 1e-10  # relative: sixteen digits, less what sums over a thousand values and a steep lobe lose
+EXACT = 1e-13  # relative: a double printed and read again
+TOLD = 4  # digits of a percentage
+
+
+@dataclass(frozen=True)
+class Rederived:
+    """One number of the answer, and what it should be."""
+
+    place: str  # such as ranking[0].rms_ln
+    found: float | None
+    right: float
+    allowed: float  # between the two
+
+    @property
+    def agrees(self) -> bool:
+        if self.found is None:
+            return False
+        return abs(self.found - self.right) <= self.allowed
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What was derived, what was only used, what could not be derived, and why."""
+
+    derived: tuple[Rederived, ...]
+    used: int  # numbers that the derivation starts from
+    left: dict[str, str]  # row -> why nothing was derived
+    only_sealed: int  # numbers that do not follow from the answer
+
+    @property
+    def wrong(self) -> tuple[Rederived, ...]:
+        return tuple(each for each in self.derived if not each.agrees)
+
+
+@dataclass(eq=False)
+class _Found:
+    """Comparisons as they are made."""
+
+    derived: list[Rederived] = field(default_factory=list)
+
+    def check(self, place: str, found, right, relative: float = CLOSE, absolute: float = 1e-15) -> None:
+        """One number; nothing where the answer has none."""
+        if found is not None:
+            allowed = relative * abs(float(right)) + absolute
+            self.derived.append(Rederived(place, float(found), float(right), allowed))
+
+    def rounded(self, place: str, found, right, digits: int = TOLD) -> None:
+        """One that was printed with so many digits; either neighbour where it lies between two."""
+        ends = [float(f"{float(right) * (1 + step):.{digits}g}") for step in (-CLOSE, CLOSE)]
+        self.check(place, found, ends[0] if found == ends[0] else ends[1], EXACT)
+
+
+def verify(
+    answer: dict, data: Readings, only: str | None = None, progress: Callable[[str], None] = lambda name: None
+) -> Verification:
+    """Everything that follows from an answer's parameters and the data it was fitted to, in 30 digits.
+
+    Takes  a document of `fit --json`; `only` the row of one model. The answer's own counts and ranges are compared with
+    the data first.    Gives  every comparison; nothing is raised for a number that is wrong.
+    """
+    found, left = _Found(), dict[str, str]()
+    with workdps(DIGITS):
+        _data_block(answer["data"], data, found)
+        grey = _grey_ring(answer, data)
+        rows = {}
+        for place, row in enumerate(answer["ranking"]):
+            progress(row["candidate"])
+            if only is not None and only not in (row["candidate"], row["model"]):
+                continue
+            try:
+                rows[place] = _Row(row, f"ranking[{place}]", data, grey)
+            except NoLaw as missing:
+                left[row["candidate"]] = f"no law called {missing} is written down a second time"
+                continue
+            if any(flag["code"] == "instrument" for flag in row["flags"]):
+                left[row["candidate"]] = (
+                    "its errors are told without what the instrument did, which is not in the answer"
+                )
+                del rows[place]
+        for each in rows.values():
+            each.errors(found)
+        _differences(rows, found)
+        if only is None:
+            _orders(answer, found)
+    used = sum(_size(entry["value"]) for row in answer["ranking"] for entry in row["parameters"].values())
+    return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
+
+
+def readings_of(measurement: Measurement, answer: dict) -> Readings:
+    """A measurement as it was read for the fit, with what the answer says of its values.
+
+    Raises InputError where the answer has other channels.
+    """
+    geom, channels = measurement.geom, len(measurement.channels)
+    if len(answer["data"]["channels"]) != channels:
+        told = len(answer["data"]["channels"])
+        found = f"{channels} channel{'s' * (channels != 1)}"
+        raise InputError(f"{measurement.name}: found {found}; the answer has {told}: are they its data?")
+    columns = (geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg)
+    wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
+    wavelengths = wavelengths if isinstance(wavelengths, list) else [wavelengths]
+    codes = {each["code"] for each in answer["data"]["findings"]}
+    return Readings(
+        angles=tuple(zip(*(column.ravel().tolist() for column in columns), strict=True)),
+        values=tuple(map(tuple, measurement.brdf.tolist())),
+        limits=tuple(answer["noise"].get("told_from_per_sr") or [0.0] * channels),
+        wavelengths=tuple(wavelengths if len(wavelengths) == channels else wavelengths * channels),
+        solid_angle=measurement.solid_angle or answer["data"].get("solid_angle_sr"),
+        by_scan="weighed-by-scan" in codes,
+    )
+
+
+def _size(value) -> int:
+    return len(value) if isinstance(value, list) else int(value is not None)
+
+
+def _numbers(document) -> int:
+    """How many numbers stand in a document."""
+    if isinstance(document, dict):
+        return sum(map(_numbers, document.values()))
+    if isinstance(document, list):
+        return sum(map(_numbers, document))
+    return int(isinstance(document, (int, float)) and not isinstance(document, bool))
+
+
+def _data_block(block: dict, data: Readings, found: _Found) -> None:
+    """What the answer says of the data themselves."""
+    found.check("data.samples", block["samples"], len(data.angles))
+    found.check("data.values", block["values"], len(data.angles) * len(data.wavelengths))
+    for name, place in (("theta_i_deg", 0), ("theta_r_deg", 2)):
+        angles = [each[place] for each in data.angles]
+        found.check(f"data.{name}[0]", block[name][0], min(angles))
+        found.check(f"data.{name}[1]", block[name][1], max(angles))
+    for place, nm in enumerate(block["wavelength_nm"]):
+        found.check(f"data.wavelength_nm[{place}]", nm, round(1e3 * data.wavelengths[place], 6))
+
+
+def _grey_ring(answer: dict, data: Readings) -> tuple[Ring, list] | None:
+    """How S is taken of one channel in the plane of incidence, and the data's lightness; None elsewhere."""
+    if answer.get("seen_weights") != "ring" or len(data.wavelengths) != 1:
+        return None
+    ring = Ring(data)
+    return ring, ring.lightness(None)
+
+
+class _Row:
+    """One row with its exact residuals."""
+
+    def __init__(self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None):
+        self.row, self.place, self.data, self.grey = row, place, data, grey
+        self.surface = surface_of(row["model"], row["parameters"])
+        self.residuals = exact_errors.exact_residuals(self.surface, data)
+        self.rms = exact_errors.exact_rms(self.residuals, data.share)
+        self.lightness = grey[0].lightness(self.residuals, self.surface) if grey else None
+
+    def errors(self, found: _Found) -> None:
+        """Its own errors, and the numbers that follow from its parameters."""
+        row, place = self.row, self.place
+        found.check(f"{place}.rms_ln", row["rms_ln"], self.rms)
+        found.rounded(f"{place}.off_percent", row["off_percent"], 100 * expm1(min(self.rms, mpf(50))))
+        by_theta = exact_errors.by_incidence(self.residuals, self.data)
+        for angle, told in row["rms_ln_by_theta_i"].items():
+            right = by_theta.get(float(angle), mpf("nan"))
+            found.check(f"{place}.rms_ln_by_theta_i.{angle}", told, right)
+        scales = {"ln": self.rms, **exact_errors.on_scales(self.residuals, self.data)}
+        for name, right in scales.items():
+            found.check(f"{place}.errors.{name}", row["errors"][name], right)
+        if self.grey and self.lightness:
+            right = self.grey[0].apart(self.lightness, self.grey[1])
+            found.check(f"{place}.seen", row["seen"], right)
+            found.check(f"{place}.errors.seen", row["errors"]["seen"], right)
+        fitted = (_size(each["value"]) for each in row["parameters"].values() if each.get("fitted"))
+        found.check(f"{place}.free_parameters", row["free_parameters"], sum(fitted))
+        self._parameters(found)
+        for flag in row["flags"]:
+            if flag["code"] == "discrepancy":
+                self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)
+
+    def _discrepancy(self, told: dict, place: str, found: _Found) -> None:
+        """Where each number follows from the others: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""
+        plain = exact_errors.exact_rms(self.residuals, [mpf(1)] * len(self.residuals))
+        part = plain * sqrt(mpf(told["correlation"]))
+        found.check(f"{place}.systematic_rms_ln", told["systematic_rms_ln"], part)
+        found.check(f"{place}.percent", told["percent"], 100 * expm1(part))
+        found.check(f"{place}.chance", told["chance"], erfc(mpf(told["z"]) / sqrt(2)) / 2, 1e-7, absolute=0.0)
+
+    def _parameters(self, found: _Found) -> None:
+        """What follows from its parameters, and how well those are known."""
+        for key, entry in self.row["parameters"].items():
+            place = f"{self.place}.parameters.{key}"
+            values = entry["value"] if isinstance(entry["value"], list) else [entry["value"]]
+            law = key.rpartition(".")[2] if entry.get("derived") else ""
+            for channel, value in enumerate(values if law in FOLLOWS else ()):
+                own = {
+                    name.rpartition(".")[2]: self.surface.at(name, channel)
+                    for name in self.surface.values
+                    if name.rpartition(".")[0] == key.rpartition(".")[0]
+                }
+                found.check(f"{place}.value[{channel}]", value, FOLLOWS[law](**own))
+            if entry.get("known_to") is not None and entry["stderr"] is not None:
+                found.check(f"{place}.known_to", entry["known_to"], _known_to(values, entry["stderr"]))
+
+
+def _known_to(values: list, stderr) -> float:
+    """Two standard errors as a share of the value, the median over channels."""
+    errors = stderr if isinstance(stderr, list) else [stderr]
+    shares = sorted(2 * error / value for value, error in zip(values, errors, strict=True) if value and value > 0)
+    middle = len(shares) // 2
+    return shares[middle] if len(shares) % 2 else (shares[middle - 1] + shares[middle]) / 2
+
+
+def _c_z(*, tilt, **_):
+    wide = abs(tilt) < 45
+    return mpf(1) if wide else cos(radians(tilt)) / abs(sin(radians(tilt)))
+
+
+def _c_xy(*, tilt, **_):
+    sign = (tilt > 0) - (tilt < 0)
+    return -tan(radians(tilt)) if abs(tilt) < 45 else mpf(-sign)
+
+
+FOLLOWS: dict[str, Callable] = {  # numbers beside the parameters -> how they follow
+    "tau": lambda *, sigma, slope, **_: sigma / slope,
+    "F0": lambda *, n, k, **_: ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2),
+    "c_xy": _c_xy,
+    "c_z": _c_z,
+}
+
+
+def _differences(rows: dict[int, _Row], found: _Found) -> None:
+    """How far each row lies behind the best, with its standard error, and how different the two look."""
+    best = next((each for each in rows.values() if each.row["behind"] == 0 and each.row["tied"]), None)
+    if best is None:
+        return
+    for each in rows.values():
+        right, error = exact_errors.exact_behind(each.residuals, best.residuals, each.data)
+        found.check(f"{each.place}.behind", each.row["behind"], right, absolute=1e-12)
+        found.check(f"{each.place}.behind_se", each.row["behind_se"], error, 1e-8)
+        if each.grey and each.lightness and best.lightness:
+            apart = each.grey[0].apart(each.lightness, best.lightness)
+            found.check(f"{each.place}.seen_from_best", each.row["seen_from_best"], apart, absolute=1e-11)
+
+
+def _orders(answer: dict, found: _Found) -> None:
+    """The same errors where candidates are put in order."""
+    rows = {row["candidate"]: row for row in answer["ranking"]}
+    for place, entry in _entries(answer):
+        row = rows.get(entry["candidate"])
+        if row is None:
+            continue
+        name = "seen" if "seen" in entry else place.split(".")[1]
+        key = "seen" if "seen" in entry else "error"
+        right = row["errors"].get(name)
+        if right is not None:
+            found.check(f"{place}.{key}", entry[key], right)
+    floor = answer.get("floor")
+    if floor and floor["candidate"] in rows:
+        found.rounded("floor.model", floor["model"], rows[floor["candidate"]]["rms_ln"])
+
+
+def _entries(answer: dict) -> Iterator[tuple[str, dict]]:
+    for name, scale in answer.get("scales", {}).items():
+        for place, entry in enumerate(scale["order"]):
+            yield f"scales.{name}.order[{place}]", entry
+    for place, entry in enumerate(answer.get("seen_order", ())):
+        yield f"seen_order[{place}]", entry

@@ -1,0 +1,96 @@
+"""Standard output and error, whatever they are: of any encoding, closed, full, or read by somebody who has enough."""
+
+import codecs
+import os
+import sys
+
+from .. import printable
+from ..errors import InputError
+
+
+def prepare_streams() -> None:
+    """Signs that an encoding lacks are shown in those that it has; a stream that is closed is told from one that is not
+    there."""
+    codecs.register_error("shown", printable.shown)
+    if sys.stdin is None:
+        sys.stdin = open(os.open(os.devnull, os.O_RDONLY), closefd=False)  # noqa: SIM115
+    if sys.stdout is None:
+        # A handle that cannot be written to, so that whoever writes is told.
+        sys.stdout = open(os.open(os.devnull, os.O_RDONLY), "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    if sys.stderr is None:
+        sys.stderr = open(os.open(os.devnull, os.O_WRONLY), "w", closefd=False)  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="shown")
+
+
+def say(text: str, end: str = "\n", *, shown: bool = False) -> bool:
+    """An answer on standard output, all of it at once; whether anybody reads on: one who has enough, such as `head`, is
+    no error. `shown`: colours of ours stand in it, and `printable` has shown the rest. Raises InputError where it
+    cannot be written."""
+    try:
+        sys.stdout.write((text if shown else printable.lines(text)) + end)
+        sys.stdout.flush()
+    except OSError as error:
+        return _gone(error)
+    return True
+
+
+def write_out(content: str) -> None:
+    """A file's text on standard output: the same bytes as in a file. Raises InputError where it cannot be written."""
+    if not hasattr(sys.stdout, "buffer"):
+        say(content, end="")
+        return
+    try:
+        sys.stdout.buffer.write(content.encode(errors="backslashreplace"))
+        sys.stdout.flush()
+    except OSError as error:
+        _gone(error)
+
+
+def _gone(error: OSError) -> bool:
+    """False where the reader has enough; InputError for anything else."""
+    _nowhere(sys.stdout)
+    if not isinstance(error, BrokenPipeError):
+        raise InputError(f"cannot write standard output: {error.strerror}") from None
+    return False
+
+
+def whisper(text: str, end: str = "\n") -> None:
+    """Something for the person, on standard error; where that cannot be written there is nobody to tell."""
+    try:
+        sys.stderr.write(printable.lines(text) + end)
+        sys.stderr.flush()
+    except OSError:
+        _nowhere(sys.stderr)
+
+
+def failed(error: OSError) -> int:
+    """The status for an error of a stream: 0 where its reader has enough."""
+    _nowhere(sys.stdout)
+    if isinstance(error, BrokenPipeError):
+        return 0
+    whisper(f"brdfguide: cannot write standard output: {error.strerror}")
+    return 2
+
+
+def given_up() -> bool:
+    """Whether the parser, printing its help, met a reader who has enough, and put its own stream in place of ours."""
+    return type(sys.stdout).__name__ == "PacifyFlushWrapper"
+
+
+def closed(status):
+    """The status in the end, once everything is written."""
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        return max(failed(error), status or 0)
+    return status
+
+
+def _nowhere(stream) -> None:
+    """What is still to be written goes nowhere, also when the interpreter ends."""
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    except (OSError, ValueError):  # a stream without a handle
+        return

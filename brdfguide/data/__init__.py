@@ -1,0 +1,1 @@
+"""What an instrument reported; knows no model."""

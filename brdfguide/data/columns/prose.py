@@ -1,0 +1,138 @@
+"""What titles and comments say of a table: wavelength, incidence, quantity, unit of the angles."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+from .facts import spelt_out
+from .grammar import understood
+from .tokens import Token
+from .vocabulary import ANGLE_UNIT_OF, LENGTH_UNIT_OF, LENGTH_UNITS, SPOKEN_OF, senses_of
+
+MOST_LINES = 2000  # of titles and comments; data do not begin later
+BETWEEN = 5  # tokens that may stand between `wavelength` and its number
+LONGEST_SPOKEN = max(len(phrase) for phrase in SPOKEN_OF)
+WORDS_OF_AN_ANGLE = 4
+
+
+@dataclass(frozen=True)
+class Wavelength:
+    um: float
+    said_as: str  # `wavelength`, or `middle of the band`
+    line: int  # which of the lines says it
+    told: bool  # by the word wavelength, not merely by a unit
+
+
+def wavelength_in(lines) -> Wavelength | None:
+    """`wavelength_nm: 633`, `Wavelength (nm) = 550`, `lambda = 532 nm`; then `2-5.7 um band`; then a lone `650 nm`."""
+    rows = [spelt_out(line) for line in lines[:MOST_LINES]]
+    for find, said_as in ((_after_the_word, "wavelength"), (_band, "middle of the band"), (_alone, "wavelength")):
+        for place, row in enumerate(rows):
+            um = find(row)
+            if um is not None:
+                return Wavelength(um, said_as, place, find is _after_the_word)
+    return None
+
+
+def _after_the_word(row: list[Token]) -> float | None:
+    for place, token in enumerate(row):
+        if "wavelength" not in senses_of(token.text) or token.text == "wave":
+            continue
+        unit = None
+        for at in range(place + 1, min(place + 1 + BETWEEN, len(row))):
+            each = row[at]
+            if each.text == "0" and at == place + 1:
+                continue  # lambda_0
+            if each.is_number:
+                after = row[at + 1].text if at + 1 < len(row) else ""
+                unit = LENGTH_UNIT_OF.get(after, unit)
+                if unit:
+                    return each.number * LENGTH_UNITS[unit][0]
+                break
+            unit = LENGTH_UNIT_OF.get(each.text, unit)
+            if each.is_word and not (each.text in LENGTH_UNIT_OF or senses_of(each.text) & {"wavelength", "filler"}):
+                break
+    return None
+
+
+def _band(row: list[Token]) -> float | None:
+    for low, sign, high, unit in (row[place : place + 4] for place in range(len(row) - 3)):
+        if low.is_number and high.is_number and sign.text in ("-", "to") and unit.text in LENGTH_UNIT_OF:
+            return 0.5 * (low.number + high.number) * LENGTH_UNITS[LENGTH_UNIT_OF[unit.text]][0]
+    return None
+
+
+def _alone(row: list[Token]) -> float | None:
+    for token, unit in pairwise(row):
+        if token.is_number and LENGTH_UNIT_OF.get(unit.text) == "nm" and 100 <= token.number < 100_000:
+            return token.number / 1000
+    return None
+
+
+def incidence_in(lines) -> float | None:
+    """`theta_i: 45`, `AOI = 45 deg`, `Angle of incidence: 45°` [deg]."""
+    for line in lines[:MOST_LINES]:
+        row = spelt_out(line)
+        for place, token in enumerate(row):
+            if token.text not in (":", "=") or place + 1 >= len(row):
+                continue
+            sign = -1.0 if row[place + 1].text == "-" else 1.0
+            at = place + 1 + (row[place + 1].text in ("-", "+"))
+            if at >= len(row) or not row[at].is_number:
+                continue
+            if at + 1 < len(row) and ANGLE_UNIT_OF.get(row[at + 1].text) != "deg":
+                continue
+            if _names_the_incidence(row[:place]):
+                return sign * row[at].number
+    return None
+
+
+def _names_the_incidence(before: list[Token]) -> bool:
+    words = [token.text for token in before if token.is_word and token.text not in ANGLE_UNIT_OF][-WORDS_OF_AN_ANGLE:]
+    tails = (" ".join(words[start:]) for start in range(len(words)))
+    return any(column.role == "theta_i" and not column.form for column in map(understood, tails))
+
+
+def quantity_stated(lines) -> str | None:
+    """What a line `quantity: NAME` says outright."""
+    for line in lines[:MOST_LINES]:
+        row = line[:80].replace("=", ":").partition(":")
+        if row[0].strip().lower() == "quantity" and row[2].split():
+            return row[2].split()[0].strip(",;.").lower()
+    return None
+
+
+def quantities_in(lines) -> dict[str, str]:
+    """Every quantity that titles and comments name -> the words that do."""
+    found: dict[str, str] = {}
+    for line in lines[:MOST_LINES]:
+        row = [token.text for token in spelt_out(line) if token.text != "-"]
+        place = 0
+        while place < len(row):
+            phrases = (tuple(row[place : place + length]) for length in range(LONGEST_SPOKEN, 0, -1))
+            phrase = next((each for each in phrases if each in SPOKEN_OF), None)
+            if phrase:
+                found.setdefault(SPOKEN_OF[phrase], " ".join(phrase))
+            place += len(phrase or (0,))
+    return found
+
+
+def angle_unit_in(lines) -> str | None:
+    """`angles in radians`, `Angles: deg`: the one unit that comments give for angles as such."""
+    found = set()
+    for line in lines[:MOST_LINES]:
+        row = spelt_out(line)
+        if any(token.is_number for token in row) or not any(token.text in ("angle", "angles") for token in row):
+            continue
+        found |= {ANGLE_UNIT_OF[token.text] for token in row if token.text in ANGLE_UNIT_OF}
+    return found.pop() if len(found) == 1 else None
+
+
+def scale_in(lines) -> float | None:
+    """`scale: 0.001`, `scale factor = 1e-3`: what values are to be multiplied by; a number with a unit is none."""
+    for line in lines[:MOST_LINES]:
+        words = [token.text for token in spelt_out(line)]
+        row = [token for token in spelt_out(line) if token.text != "factor"]
+        said = len(row) == 3 and words[0] in ("scale", "multiplier") and row[1].text in (":", "=")
+        if said and row[2].is_number and row[2].number > 0:
+            return row[2].number
+    return None

@@ -1,0 +1,247 @@
+"""What a file may mean by a number: which side has the mirror direction, which quantity, which marks say "no data"."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..finding import Finding
+from ..physics.geometry import Geometry
+from .measurement import Measurement
+
+SIDES = ("positive", "negative", "phi=180", "phi=0")
+QUANTITIES = ("brdf", "brdf-cos", "brdf-cos-i", "reflectance-factor", "brf", "hdrf", "radf")
+NEAR_PLANE_DEG = 20.0  # how far from the plane of incidence a direction still counts for one side
+BLOCKED_DEG = 6.0  # a lamp in front of the detector covers at least this
+UNDONE = {
+    "brdf-cos": "divided by cos theta_r",
+    "brdf-cos-i": "divided by cos theta_i",
+    "reflectance-factor": "divided by pi",
+    "dark-level": "taken out",
+}
+STEEP_DEG = 8.0  # below this incidence the two sides are not told apart
+
+
+def turned_180(geom: Geometry) -> Geometry:
+    """Every reflected direction turned by 180 degrees about the normal: the other sign convention."""
+    return Geometry.from_degrees(
+        geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg + 180.0, geom.wavelength
+    )
+
+
+def as_brdf(measurement: Measurement, quantity: str) -> Measurement:
+    """Values stated as one of `QUANTITIES`, as BRDF [1/sr].
+
+    `brdf-cos` is the BRDF times cos theta_r, `brdf-cos-i` times cos theta_i, `reflectance-factor` and `brf` times pi,
+    `hdrf` too where the sun outshines the sky, `radf` (I/F) times pi cos theta_i.
+    """
+    if quantity == "brdf":
+        return measurement
+    geom = measurement.geom
+    factor = {
+        "brdf-cos": 1 / geom.cos_r,
+        "brdf-cos-i": 1 / geom.cos_i,
+        "reflectance-factor": 1 / np.pi,
+        "brf": 1 / np.pi,
+        "hdrf": 1 / np.pi,
+        "radf": 1 / (np.pi * geom.cos_i),
+    }[quantity]
+    stderr = None if measurement.stderr is None else measurement.stderr * factor
+    measurement = replace(measurement, brdf=measurement.brdf * factor, stderr=stderr)
+    if quantity != "hdrf":
+        return measurement
+    text = "reflectance factors under the whole sky, taken as if all light came from the sun"
+    consequence = "skylight fills up lobes and shadows; the more, the hazier the day and the bluer the light"
+    return measurement.noting(Finding("skylight", text, "warning", consequence, "--quantity"))
+
+
+def scaled(measurement: Measurement, factor: float) -> Measurement:
+    """Values and standard errors times a factor that the user gives; a level that was relative is then known."""
+    stderr = None if measurement.stderr is None else measurement.stderr * factor
+    text = f"values multiplied by {factor:g}, as --scale says"
+    scaled = replace(measurement, brdf=measurement.brdf * factor, stderr=stderr)
+    return scaled.noting(Finding("scale-by-option", text, settles=("scale",)))
+
+
+# --- marks for "no data" ---------------------------------------------------------------------------------
+
+
+def without_marks(measurement: Measurement) -> Measurement:
+    """Exact zeros, and one tiny value repeated, become NaN: they are marks, not black. Each kind is noted."""
+    brdf, notes = measurement.brdf, []
+    zero = brdf == 0
+    floor = _floor(brdf)
+    for mask, note in ((zero, _zeros_note), (np.zeros_like(zero) if floor is None else brdf == floor, _floor_note)):
+        if np.any(mask):
+            notes.append(note(measurement, mask))
+    if not notes:
+        return measurement
+    brdf = np.where(zero if floor is None else zero | (brdf == floor), np.nan, brdf)
+    return replace(measurement, brdf=brdf).noting(*notes)
+
+
+def _zeros_note(measurement: Measurement, zero) -> Finding:
+    count = int(np.count_nonzero(zero))
+    hit = np.any(zero, axis=1)
+    retro = retro_distance_deg(measurement.geom)[:, 0]
+    numbers = (("values", count), ("of", zero.size), ("farthest_from_retro_deg", float(retro[hit].max())))
+    around = retro <= max(float(retro[hit].max()), 1.0)
+    if retro[hit].max() <= 20 and np.count_nonzero(hit) >= 0.5 * np.count_nonzero(around):
+        text = (
+            f"{count} of {zero.size} values are exactly 0, all within {retro[hit].max():.0f} degrees of the source: "
+            f"blocked by the instrument, not black"
+        )
+        return Finding("blocked-retro-zone", text, consequence="no model is tested there", numbers=numbers)
+    text = f"{count} of {zero.size} values are exactly 0: taken as missing, not as black"
+    return Finding("zeros-missing", text, consequence="they take no part in a fit", numbers=numbers)
+
+
+def _floor_note(measurement: Measurement, mask) -> Finding:
+    count, value = int(np.count_nonzero(mask)), float(measurement.brdf[mask][0])
+    steepest = np.maximum(measurement.geom.theta_i_deg, measurement.geom.theta_r_deg)[np.any(mask, axis=1)]
+    text = (
+        f"the lowest value, {value:g}/sr, stands {count} times in {mask.size}: the instrument's floor, taken as missing"
+    )
+    numbers = (("values", count), ("of", mask.size), ("floor_per_sr", value), ("from_theta_deg", float(steepest.min())))
+    return Finding("floor", text, consequence="they take no part in a fit", numbers=numbers)
+
+
+def _floor(brdf) -> float | None:
+    """The lowest positive value, if it is repeated as no measured value is.
+
+    A smooth surface whose lobe has died out repeats its diffuse value as well; but then the values just above
+    crowd toward it, while a floor cuts through them: those within 0.2 % are not denser than those within 10 %.
+    """
+    with np.errstate(invalid="ignore"):
+        positive = brdf[brdf > 0]
+        if positive.size < 20:
+            return None
+        low = positive.min()
+        count = np.count_nonzero(positive == low)
+        if count < 4 or count > 0.5 * positive.size:
+            return None
+        rest = positive[positive > low]
+        near = np.count_nonzero(rest <= 1.002 * low)
+        beyond = np.count_nonzero((rest > 1.002 * low) & (rest <= 1.1 * low))
+    if near >= 2 and near > 5 * beyond / 49:
+        return None
+    commonest = np.unique(
+        rest[rest <= np.partition(rest, min(200, rest.size - 1))[min(200, rest.size - 1)]], return_counts=True
+    )[1].max()
+    return float(low) if count > 3 * commonest else None
+
+
+# --- the side of the mirror direction --------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Side:
+    """Which side has the mirror direction by the values: `as_read`, `turned`, `retro` (toward the source), `untold`."""
+
+    verdict: str
+    text: str
+    certain: bool
+    contrast: float = 0.0  # median over incidences of ln(brightest ahead / brightest behind)
+    largest: float = 0.0  # the same where it is largest in size
+    growth: float = 0.0  # ln of the brighter side's peak, from the steepest to the most grazing incidence
+
+
+def retro_distance_deg(geom: Geometry):
+    """Angle between light and detector [deg]."""
+    cosine = geom.dot_xy + geom.cos_i * geom.cos_r
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+
+
+def side_of(geom: Geometry, brdf) -> Side:
+    """Judges the mirror side from the values alone; `geom` holds the directions as the file is read by default."""
+    if blocked := _blocked(geom, brdf):
+        return blocked
+    ahead, behind, angles, beyond = _peaks(geom, brdf)
+    if not len(angles):
+        return Side("untold", "no incidence is far enough from the normal to tell the mirror side", False)
+    both = np.isfinite(ahead) & np.isfinite(behind)
+    if not np.any(both):
+        if np.any(np.isfinite(ahead)):
+            return Side("as_read", "only the mirror side was measured", True)
+        return Side(
+            "turned",
+            "only one side was measured, and it is brightest where a mirror would send the light",
+            bool(np.all(beyond > -5)),
+        )
+    contrast = ahead[both] - behind[both]
+    middle, largest = float(np.median(contrast)), float(np.clip(contrast[np.argmax(np.abs(contrast))], -300, 300))
+    brighter = ahead if middle > 0 else behind
+    order = np.flatnonzero(both)
+    growth = float(brighter[order[-1]] - brighter[order[0]]) if len(order) > 1 else 0.0
+    numbers = {"contrast": middle, "largest": largest, "growth": growth}
+    if middle >= 0.02 and largest > 0:
+        return Side(
+            "as_read",
+            f"the mirror side is {np.exp(largest):.3g} times brighter than the side of the light",
+            True,
+            **numbers,
+        )
+    if middle > -0.1:
+        return Side(
+            "untold", "both sides are equally bright: the mirror side cannot be told from the values", False, **numbers
+        )
+    times = f"{np.exp(-largest):.3g}"
+    if growth > 0.1 or len(order) == 1:
+        certain = largest < -np.log(4) and len(order) > 1
+        return Side(
+            "turned",
+            f"the other side is {times} times brighter and grows toward grazing, as a mirror lobe does",
+            certain,
+            **numbers,
+        )
+    if growth < -0.1:
+        return Side(
+            "retro",
+            f"brightest toward the source, {times} times the mirror side, and weaker toward grazing",
+            largest < -np.log(2),
+            **numbers,
+        )
+    return Side("untold", f"one side is {times} times brighter but does not change toward grazing", False, **numbers)
+
+
+def _blocked(geom: Geometry, brdf) -> Side | None:
+    """Values missing around one of the two directions only: the lamp stood in front of the detector, or vice versa."""
+    with np.errstate(invalid="ignore"):
+        lost = ~np.any(np.isfinite(brdf) & (brdf > 0), axis=1)
+    if not np.any(lost):
+        return None
+    steep = geom.theta_i_deg[:, 0] >= 2 * BLOCKED_DEG
+    source = steep & (retro_distance_deg(geom)[:, 0] < BLOCKED_DEG)
+    mirror = steep & (geom.mirror_distance2[:, 0] < np.radians(BLOCKED_DEG) ** 2)
+    elsewhere = steep & ~source & ~mirror
+    if not (np.any(source) and np.any(mirror) and np.any(elsewhere)) or lost[elsewhere].mean() > 0.3:
+        return None
+    if lost[source].mean() > 0.7 and lost[mirror].mean() < 0.2:
+        return Side("as_read", "values are missing around the source, where the lamp stands in the way", True)
+    if lost[mirror].mean() > 0.7 and lost[source].mean() < 0.2:
+        return Side("turned", "values are missing around the other direction, so the lamp stood there", True)
+    return None
+
+
+def _peaks(geom: Geometry, brdf):
+    """ln of the brightest value ahead and behind for each incidence, the incidences, and how far the peak behind lies
+    beyond theta_i."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        good = np.isfinite(brdf) & (brdf > 0)
+        value = np.where(good, np.log(np.where(good, brdf, 1.0)), np.nan)
+    counted = np.count_nonzero(good, axis=1)
+    level = np.where(counted > 0, np.nansum(value, axis=1) / np.maximum(counted, 1), np.nan)
+    theta_i, theta_r = geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0]
+    forward = geom.dot_xy[:, 0] < 0
+    near = (geom.off_plane_deg[:, 0] <= NEAR_PLANE_DEG) & (theta_r >= STEEP_DEG) & np.isfinite(level)
+    groups = np.round(theta_i)
+    angles = np.unique(groups[near & (groups >= STEEP_DEG)])
+    ahead, behind, beyond = (np.full(len(angles), np.nan) for _ in range(3))
+    for place, angle in enumerate(angles):
+        rows = near & (groups == angle)
+        for peak, side in ((ahead, rows & forward), (behind, rows & ~forward)):
+            if np.any(side):
+                peak[place] = level[side].max()
+        if np.any(rows & ~forward):
+            found = np.flatnonzero(rows & ~forward)
+            beyond[place] = theta_r[found[np.argmax(level[found])]] - angle
+    return ahead, behind, angles, beyond

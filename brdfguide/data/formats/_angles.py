@@ -1,0 +1,398 @@
+"""Directions of light and detector out of columns of angles, in every convention that tables have."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...finding import Finding
+from ..columns import prose
+from ..columns.facts import Column
+from ..columns.vocabulary import ANGLE_UNITS
+from . import _half_difference, _phase
+from ._roles import Assigned, missing
+from ._rotations import light_for
+from ._sheet import Sheet
+from .format import Options, Source, check_angle, check_zenith, degrees
+
+OF_DIRECTIONS = (
+    "theta_i", "phi_i", "theta_r", "phi_r", "dphi", "theta_h", "phi_h", "theta_d", "phase", "from_mirror", "rotation",
+)  # fmt: skip
+OF_COSINES = ("beta_i", "beta_r", "alpha_r", "beta_from_mirror", "x_i", "y_i", "z_i", "x_r", "y_r", "z_r")
+UNNAMED = ("theta_i", "theta_r", "theta_h", "theta_d")  # zeniths whose values tell degrees from radians
+
+
+@dataclass
+class Angles:
+    """Angles [deg] by role while directions are made of them; `used` are the roles that were."""
+
+    source: Source
+    table: Sheet
+    raw: dict[str, np.ndarray]
+    notes: list[Finding]
+    constant: frozenset[str]  # roles that one number for the whole table has
+    used: set[str] = field(default_factory=set)
+
+    def has(self, *roles: str) -> bool:
+        return all(role in self.raw for role in roles)
+
+    def take(self, role: str) -> np.ndarray:
+        self.used.add(role)
+        return self.raw[role]
+
+    def note(self, code: str, text: str, **more) -> None:
+        self.notes.append(Finding(code, text, **more))
+
+
+@dataclass(frozen=True)
+class RowDirections:
+    degrees: np.ndarray  # theta_i, phi_i, theta_r, phi_r (4, rows)
+    rows: np.ndarray  # which rows of the table have them
+    azimuths: bool  # whether the table gives them
+    used: set[str]
+    unit: str
+
+
+def row_directions(
+    source: Source, table: Sheet, given: Assigned, options: Options, unit: str | None, notes
+) -> RowDirections:
+    """theta_i, phi_i, theta_r, phi_r of every row that has them. Raises InputError where a column is missing."""
+    named = ((role, given.one(role)) for role in (*OF_DIRECTIONS, *OF_COSINES))
+    columns = {role: column for role, column in named if column is not None}
+    _no_text(source, table, columns.values())
+    raw, said = _in_degrees(source, table, columns, options, unit, notes)
+    constant = {role: value for role, value in given.constants.items() if role in (*OF_DIRECTIONS, "phi_d")}
+    constant = {"dphi" if role == "phi_d" else role: value for role, value in constant.items()}
+    constant = {role: value for role, value in constant.items() if role not in raw}
+    raw |= {role: np.full(len(table.values), value) for role, value in constant.items()}
+    angles = Angles(source, table, raw, notes, frozenset(constant))
+    found, azimuths = _made(angles, options)
+    found = np.stack(np.broadcast_arrays(*found))
+    for role, each in zip(("theta_i", "phi_i", "theta_r", "phi_r"), found, strict=True):
+        check_angle(source, role, each, table.lines)
+    whole = np.all(np.isfinite(found), axis=0)
+    if not np.any(whole):
+        raise source.error("no row has all its angles")
+    if lost := int(np.count_nonzero(~whole)):
+        text = f"{lost} rows without all angles were dropped"
+        notes.append(Finding("rows-without-angles", text, numbers=(("rows", lost),)))
+    if np.any(found[0, whole] < 0):
+        text = "theta_i is negative: the light comes from the azimuth opposite to phi_i"
+        notes.append(Finding("negative-theta-i", text, option="--mirror-side"))
+    return RowDirections(_with_signs(found[:, whole], not azimuths, options), whole, azimuths, angles.used, said)
+
+
+def _no_text(source: Source, table: Sheet, columns) -> None:
+    """Raises InputError for the first cell of a column of angles that is no number."""
+    found = ((column.name, table.bad_cell(column.place)) for column in columns)
+    bad = [(cell[1], name, cell[0]) for name, cell in found if cell]
+    if bad:
+        line, name, text = min(bad)
+        raise source.error(f"column '{name[:60]}': found '{text[:40]}', wanted a number", line)
+
+
+# --- units ------------------------------------------------------------------------------------------------
+
+
+def _in_degrees(source, table, columns: dict[str, Column], options: Options, unit: str | None, notes):
+    """Each column of angles in degrees, cosines and components as they are; and the units, and how they are known."""
+    raw = {role: table.values[:, column.place] for role, column in columns.items()}
+    plain = {role: raw[role] for role in columns if role in OF_DIRECTIONS and columns[role].form in ("", "elevation")}
+    units, said = _units(source, {role: columns[role] for role in plain}, plain, table, options, unit, notes)
+    if units:
+        said = f"angles in {' and '.join(sorted(set(units.values())))}, {said}"
+    for role in plain:
+        factor = ANGLE_UNITS[units[role]][0]
+        if units[role] == "rad":
+            raw[role] = degrees(raw[role])
+        elif factor != 1:
+            with np.errstate(over="ignore", invalid="ignore"):
+                raw[role] = np.round(raw[role] * factor, 9)
+        if columns[role].form == "elevation":
+            raw[role] = 90.0 - raw[role]
+            notes.append(Finding("elevation", f"'{columns[role].name}' is an elevation: zenith angle 90 minus it"))
+    for role, column in columns.items():
+        if column.form in ("cos", "sin"):
+            raw[role] = _of_function(source, table, column)
+            notes.append(Finding("angle-function", f"'{column.name}' is the {_FUNCTION[column.form]} of {role}"))
+    return raw, said
+
+
+_FUNCTION = {"cos": "cosine", "sin": "sine"}
+
+
+def _of_function(source, table, column: Column) -> np.ndarray:
+    """Degrees out of a cosine or sine. Raises InputError beyond 1."""
+    values = table.values[:, column.place]
+    bad = np.flatnonzero(np.abs(values) > 1 + 1e-6)
+    if len(bad):
+        text = f"column '{column.name}': found {values[bad[0]]:g}; a {_FUNCTION[column.form]} lies within -1..1"
+        raise source.error(text, int(table.lines[bad[0]]))
+    inverse = np.arccos if column.form == "cos" else np.arcsin
+    return degrees(inverse(np.clip(values, -1, 1)))
+
+
+def _units(source, columns, raw, table, options: Options, unit: str | None, notes) -> tuple[dict[str, str], str]:
+    """The unit of each column of angles, and how it is known: the option, its name, the others, comments or values."""
+    if not columns:
+        if options.unit:
+            raise source.error(f"--unit {options.unit} has no effect: no column holds angles as such")
+        return {}, ""
+    if options.unit:
+        return dict.fromkeys(columns, options.unit), "as --unit says"
+    named = {role: column.unit for role, column in columns.items() if column.unit in ANGLE_UNITS}
+    if len(named) == len(columns):
+        return named, "as the names say"
+    if len(set(named.values())) > 1:
+        raise source.error(
+            "some angle columns are named in degrees and some in radians; say which with --unit deg or --unit rad"
+            if set(named.values()) == {"deg", "rad"}
+            else f"some angle columns are named in {' and '.join(sorted(set(named.values())))}, some in none; say "
+            f"which with --unit"
+        )
+    if named:
+        return dict.fromkeys(columns, next(iter(named.values()))), "as the names say"
+    if unit:
+        return dict.fromkeys(columns, unit), "as the header says"
+    if commented := prose.angle_unit_in(table.comments):
+        return dict.fromkeys(columns, commented), "as a comment says"
+    return dict.fromkeys(columns, _inferred(source, raw, notes)), "from their values"
+
+
+def _inferred(source, raw, notes) -> str:
+    """`deg` or `rad`, from the values."""
+    zeniths = [raw[role] for role in UNNAMED if role in raw] or list(raw.values())
+    theta = np.abs(np.concatenate(zeniths or [np.zeros(0)]))
+    theta = theta[np.isfinite(theta)]
+    azimuth = np.concatenate([raw[role] for role in raw if role not in UNNAMED] or [np.zeros(1)])
+    largest, turn = float(theta.max(initial=0.0)), float(np.abs(azimuth[np.isfinite(azimuth)]).max(initial=0.0))
+    if not len(theta) or largest > 1.58 or turn > 6.3:
+        return "deg"
+    as_degrees, as_radians = _share_of_quarters(theta), _share_of_quarters(np.degrees(theta))
+    if as_radians > 0.9 and as_degrees < 0.5 or (largest > 0.5 and 3.1 < turn < 6.3):
+        text = f"no angle exceeds {max(largest, turn):.3g}: taken as radians"
+        notes.append(Finding("radians-inferred", text, option="--unit deg"))
+        return "rad"
+    if largest < 1e-9:
+        return "deg"
+    text = f"no angle exceeds {max(largest, turn):.3g} and no column names a unit; say --unit deg or --unit rad"
+    raise source.error(text)
+
+
+def _share_of_quarters(values) -> float:
+    """How many are multiples of a quarter, as instruments step."""
+    return float(np.mean(np.abs(values * 4 - np.round(values * 4)) < 4e-3))
+
+
+# --- conventions ------------------------------------------------------------------------------------------
+
+
+def _made(angles: Angles, options: Options):
+    """theta_i, phi_i, theta_r, phi_r [deg], and whether the table gives azimuths; the sample's rotation undone."""
+    if angles.has("theta_h", "theta_d") and not angles.has("theta_i", "theta_r"):
+        found, azimuths = _of_half_and_difference(angles), True
+    elif angles.has("x_i", "y_i", "x_r", "y_r") and not angles.has("theta_i", "theta_r"):
+        found, azimuths = _of_vectors(angles), True
+    else:
+        theta_i = _incidence(angles)
+        theta_r = _reflected(angles, theta_i)
+        if "alpha_r" in angles.used:
+            return _turned(angles, (theta_i, 0 * theta_i, *theta_r), options), True
+        found, azimuths = _with_azimuths(angles, theta_i, theta_r)
+    return _turned(angles, found, options), azimuths
+
+
+def _incidence(angles: Angles) -> np.ndarray:
+    if angles.has("theta_i"):
+        if "theta_i" in angles.constant:
+            angles.note("theta-i-constant", f"theta_i = {angles.raw['theta_i'][0]:g} degrees for the whole file")
+        return angles.take("theta_i")
+    if angles.has("beta_i"):
+        return _arcsine(angles, "beta_i", angles.take("beta_i"))
+    raise missing("theta_i", angles.table, angles.source)
+
+
+def _reflected(angles: Angles, theta_i):
+    """theta_r [deg], or theta_r and phi_r where two direction cosines are given."""
+    if angles.has("theta_r"):
+        return angles.take("theta_r")
+    if angles.has("from_mirror"):
+        angles.note("angle-from-mirror", _from_mirror(angles, "from_mirror", ""), option="--columns")
+        return _above(theta_i + angles.take("from_mirror"))
+    if angles.has("beta_from_mirror"):
+        angles.note("angle-from-mirror", _from_mirror(angles, "beta_from_mirror", " as sines"), option="--columns")
+        return _arcsine(angles, "", np.sin(np.radians(theta_i)) + angles.take("beta_from_mirror"))
+    if angles.has("beta_r", "alpha_r"):
+        along, across = angles.take("beta_r"), angles.take("alpha_r")
+        angles.note("direction-cosines", "beta points to the mirror side of the plane of incidence, alpha out of it")
+        theta_r = _arcsine(angles, "", np.hypot(along, across))
+        return theta_r, 180.0 - np.degrees(np.arctan2(across, along))
+    if angles.has("beta_r"):
+        return _arcsine(angles, "beta_r", angles.take("beta_r"))
+    raise missing("theta_r", angles.table, angles.source)
+
+
+def _from_mirror(angles: Angles, role: str, how: str) -> str:
+    """The note on angles that count from the mirror direction. Raises InputError where azimuths turn about it."""
+    azimuths = [each for each in ("dphi", "phi_r") if angles.has(each)]
+    for each in azimuths:
+        if np.nanmax(np.abs(angles.take(each)), initial=0.0) > 1e-6:
+            raise angles.source.error(
+                "angles from the mirror direction beside azimuths: whether these turn about the mirror direction or "
+                "the normal is not said; give theta_r and phi_r about the normal"
+            )
+        del angles.raw[each]
+    return f"angles count from the mirror direction: added to theta_i{how}, positive toward grazing"
+
+
+def _arcsine(angles: Angles, role: str, sines) -> np.ndarray:
+    """Degrees of sines; NaN beyond 1, where no direction is."""
+    if role:
+        angles.note("direction-cosines", f"{role} is the sine of an angle in the plane of incidence")
+    with np.errstate(invalid="ignore"):
+        return degrees(np.arcsin(np.where(np.abs(sines) <= 1 + 1e-9, np.clip(sines, -1, 1), np.nan)))
+
+
+def _above(theta) -> np.ndarray:
+    """Angles [deg], NaN below the horizon."""
+    return np.where(np.abs(theta) > 90, np.nan, np.round(theta, 9))
+
+
+def _with_azimuths(angles: Angles, theta_i, theta_r):
+    """The four angles out of zeniths and whatever is said of azimuths, and whether anything is."""
+    raw = angles.raw
+    theta_i, theta_r = _unswapped(angles, theta_i, theta_r)
+    for name, theta in (("theta_i", theta_i), ("theta_r", theta_r)):
+        check_zenith(angles.source, name, np.where(np.isfinite(theta), theta, 0.0), angles.table.lines)
+    phi_i = angles.take("phi_i") if "phi_i" in raw else np.zeros_like(theta_i)
+    if "phi_r" in raw:
+        return _by_phase(angles, (theta_i, phi_i, theta_r, angles.take("phi_r"))), True
+    if "dphi" in raw:
+        return _by_phase(angles, (theta_i, phi_i, theta_r, phi_i + angles.take("dphi"))), True
+    if "phase" in raw:
+        return (theta_i, phi_i, np.abs(theta_r), phi_i + _azimuth_of_phase(angles, theta_i, theta_r)), True
+    text = "no azimuth column: taken as a scan in the plane of incidence"
+    angles.note("in-plane-assumed", text, option="--columns")
+    return (theta_i, phi_i, theta_r, phi_i + 180.0), False
+
+
+def _unswapped(angles: Angles, theta_i, theta_r):
+    """Laboratories that call the zenith phi and the azimuth theta: told by zeniths beyond 90 degrees, or at rest."""
+    raw = angles.raw
+    if not angles.has("phi_i", "phi_r"):
+        return theta_i, theta_r
+    phis = np.concatenate([raw["phi_i"], raw["phi_r"]])
+    thetas = np.concatenate([theta_i, theta_r])
+    phis, thetas = phis[np.isfinite(phis)], thetas[np.isfinite(thetas)]
+    if not len(phis) or np.abs(phis).max() > 90.005:
+        return theta_i, theta_r
+    still = all(len(np.unique(each[np.isfinite(each)])) == 1 for each in (theta_i, theta_r))
+    if np.abs(thetas).max(initial=0.0) <= 90.005 and not (still and len(np.unique(phis)) > 3):
+        return theta_i, theta_r
+    text = "the columns named phi hold the zenith angles and those named theta the azimuths: exchanged"
+    consequence = "read as named, no direction would be possible"
+    angles.note("phi-is-zenith", text, consequence=consequence, option="--columns")
+    zeniths = raw["phi_i"], raw["phi_r"]
+    raw["phi_i"], raw["phi_r"] = theta_i, theta_r
+    return zeniths
+
+
+def _azimuth_of_phase(angles: Angles, theta_i, theta_r) -> np.ndarray:
+    """Azimuth [deg] from light to detector out of the angle between them.
+
+    Raises InputError for a phase angle that no azimuth gives.
+    """
+    phase = angles.take("phase")
+    found, bad = _phase.azimuth(theta_i, theta_r, phase)
+    if bad is not None:
+        row, least, most = bad
+        text = (
+            f"phase angle {phase[row]:g} degrees: beside incidence {theta_i[row]:g} and emission {theta_r[row]:g} it "
+            f"lies within {least:g}..{most:g}"
+        )
+        raise angles.source.error(text, int(angles.table.lines[row]))
+    angles.note("azimuth-from-phase", "azimuths from the phase angle, the angle between light and detector")
+    return found
+
+
+def _by_phase(angles: Angles, found):
+    """Azimuths beside a phase angle, which bears them out, or says that they count from the mirror direction."""
+    if "phase" not in angles.raw:
+        return found
+    theta_i, phi_i, theta_r, phi_r = found
+    phase = angles.take("phase")
+    off = [_phase.disagreement_deg(theta_i, theta_r, phi_r - phi_i + turn, phase) for turn in (0.0, 180.0)]
+    if off[0] <= _phase.SLACK_DEG:
+        angles.note("phase-agrees", "the phase angle agrees with the azimuths")
+        return found
+    if off[1] <= _phase.SLACK_DEG:
+        text = "the phase angle says that azimuths count from the mirror direction: turned by 180 degrees"
+        angles.note("azimuth-turned", text, option="--columns")
+        return theta_i, phi_i, theta_r, phi_r + 180.0
+    text = f"the phase angle differs from that of the other angles by {min(off):.3g} degrees (median)"
+    angles.note("phase-contradicts", text, severity="warning", consequence="the azimuths were believed")
+    return found
+
+
+# --- other frames -----------------------------------------------------------------------------------------
+
+
+def _of_half_and_difference(angles: Angles):
+    """From half and difference angles; the azimuth of the difference is the one azimuth of the table, or phi_r's."""
+    azimuth = next((role for role in ("dphi", "phi_r") if angles.has(role)), None)
+    if azimuth is None:
+        raise missing("phi_d", angles.table, angles.source)
+    phi_h = angles.take("phi_h") if angles.has("phi_h") else 0.0 * angles.raw["theta_h"]
+    parts = (angles.take("theta_h"), phi_h, angles.take("theta_d"), angles.take(azimuth))
+    for name, each in (("theta_h", parts[0]), ("theta_d", parts[2])):
+        check_zenith(angles.source, name, np.where(np.isfinite(each), each, 0.0), angles.table.lines)
+    angles.note("half-difference-angles", "directions from the angles of half vector and difference")
+    found = _half_difference.light_and_view(*(np.radians(each) for each in parts))
+    return tuple(np.round(np.degrees(each), 9) for each in found)
+
+
+def _of_vectors(angles: Angles):
+    """From components of both directions, of any length; the third from the other two where it is not given."""
+    found = []
+    for side in ("i", "r"):
+        x, y = angles.take(f"x_{side}"), angles.take(f"y_{side}")
+        with np.errstate(invalid="ignore"):
+            z = angles.take(f"z_{side}") if angles.has(f"z_{side}") else np.sqrt(1 - x**2 - y**2)
+        if np.any(z < 0) and np.all(z[np.isfinite(z)] <= 0):
+            x, y, z = -x, -y, -z
+            text = f"the vectors of {'light' if side == 'i' else 'detector'} point into the surface: reversed"
+            angles.note("vectors-reversed", text)
+        theta, phi = np.degrees(np.arctan2(np.hypot(x, y), z)), np.degrees(np.arctan2(y, x))
+        found += [np.where(theta > 90, 90.0, np.round(theta, 7)), np.round(phi, 7)]
+    return tuple(found)
+
+
+def _turned(angles: Angles, found, options: Options):
+    """With the rotation of the sample as the light's azimuth: turned by +psi, the light stands at -psi of it."""
+    theta_i, phi_i, theta_r, phi_r = found
+    if not angles.has("rotation"):
+        return found
+    psi = angles.take("rotation")
+    sign, how = light_for(options)
+    if np.nanmax(psi, initial=-np.inf) > np.nanmin(psi, initial=np.inf) or np.any(psi):
+        angles.note(how.code, f"{how.text}, the detector with it", option=how.option)
+    return theta_i, phi_i + sign * psi, theta_r, phi_r + sign * psi
+
+
+def _with_signs(found, signed: bool, options: Options) -> np.ndarray:
+    """Negative incidence: the light comes from the other side, so the mirror direction has the other sign as well."""
+    theta_i, phi_i, theta_r, phi_r = found
+    if options.mirror_side:
+        theta_i = np.abs(theta_i)
+        if options.mirror_side in ("negative", "phi=0"):
+            phi_r = phi_r + 180.0
+    elif signed and np.all(theta_i <= 0):  # in one plane and always negative: theta_r > 0 is the mirror side
+        theta_i = np.abs(theta_i)
+    return np.stack([theta_i, phi_i, theta_r, phi_r])
+
+
+def used_columns(given: Assigned, found: RowDirections) -> Assigned:
+    """The columns with those of angles that no direction was made of as ignored."""
+    for role in (*OF_DIRECTIONS, *OF_COSINES):
+        if role not in found.used and given.one(role) is not None:
+            given = given.without(role, "the other angles tell the directions already")
+    return given

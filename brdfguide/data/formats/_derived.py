@@ -1,0 +1,49 @@
+"""Sheets with a column for each incidence, or for each reflected angle, as one angle a row."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...finding import Finding
+from ..columns.facts import Column
+from ._sheet import Sheet
+
+SHOWN = 8  # angles in a note
+
+
+def one_angle_a_row(table: Sheet, columns: list[Column], notes: list[Finding]) -> tuple[Sheet, list[Column]]:
+    """The table with its columns for angles under one another, and a column that says which angle; noted."""
+    stated = [column for column in columns if column.at is not None and column.role in ("value", "stderr")]
+    kinds = list(dict.fromkeys((column.role, column.channel) for column in stated))
+    angles = list(dict.fromkeys(column.at for column in stated))
+    cells = {(column.at, column.role, column.channel): column for column in stated}
+    if not stated or len(cells) < len(stated) or len(cells) != len(kinds) * len(angles):
+        return table, columns
+    others = [column for column in columns if column not in stated]
+    blocks = []
+    for angle in angles:
+        places = [*(column.place for column in others), *(cells[angle, *kind].place for kind in kinds)]
+        blocks.append(np.column_stack([table.values[:, places], np.full(len(table.values), angle)]))
+    role = stated[0].at_role or "theta_i"
+    if role == "theta_i":
+        what, code = "incidences", "incidence-columns"
+    else:
+        what, code = "reflected angles", "reflected-columns"
+    shown = ", ".join(f"{angle:g}" for angle in angles[:SHOWN])
+    text = f"columns for {len(angles)} {what}, {shown} degrees, from their names"
+    notes.append(Finding(code, text, option="--columns"))
+    kept = [*others, *(replace(cells[angles[0], *kind], at=None, at_role=None) for kind in kinds)]
+    kept.append(Column(name=role, role=role, unit="deg"))
+    texts = {
+        place: table.texts[column.place] * len(angles)
+        for place, column in enumerate(others)
+        if column.place in table.texts
+    }
+    table = replace(
+        table,
+        names=[column.name for column in kept],
+        values=np.concatenate(blocks),
+        lines=np.tile(table.lines, len(angles)),
+        texts=texts,
+    )
+    return table, [replace(column, place=place) for place, column in enumerate(kept)]

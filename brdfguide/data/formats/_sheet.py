@@ -1,0 +1,354 @@
+"""A text table as a header and numbers, whatever separates its cells; errors point at line and column."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..columns.facts import facts
+from .format import Source, holds_number
+
+COMMENTS = ("#", "%", "//", "!")
+MISSING = {
+    "",
+    "nan",
+    "na",
+    "n/a",
+    "none",
+    "null",
+    "-",
+    "--",
+    "---",
+    "nd",
+    "n.d.",
+    "*",
+    "#n/a",
+    "#value!",
+    "#div/0!",
+    "#num!",
+}
+# delimiter and decimal mark, likeliest first; None is any white space
+STYLES = (
+    ("\t", "."),
+    (";", "."),
+    (",", "."),
+    (None, "."),
+    ("|", "."),
+    ("\t", ","),
+    (";", ","),
+    (None, ","),
+    ("|", ","),
+)
+LOOKED_AT = 40  # data lines that decide the style
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    names: list[str]
+    values: np.ndarray  # (rows, columns); NaN where a cell is missing or no number
+    lines: np.ndarray  # number of the line that each row stands in
+    comments: list[str]
+    notes: list[str]  # what was skipped
+    comment_lines: list[int] = field(default_factory=list)  # number of the line that each comment stands in
+    texts: dict[int, list[str]] = field(default_factory=dict)  # of a column with a cell that is no number: its cells
+
+    def rows(self, kept) -> "Sheet":
+        """The same for some of the rows: a mask or row numbers."""
+        places = np.arange(len(self.values))[kept]
+        texts = {column: [cells[place] for place in places] for column, cells in self.texts.items()}
+        return replace(self, values=self.values[kept], lines=self.lines[kept], texts=texts)
+
+    def bad_cell(self, column: int) -> tuple[str, int] | None:
+        """The first cell of a column that is no number, and its line."""
+        for cell, line in zip(self.texts.get(column, ()), self.lines, strict=False):
+            if not is_number(cell) and cell.lower() not in MISSING:
+                return cell, int(line)
+        return None
+
+
+def read_sheet(source: Source, headerless: tuple[str, ...] | None = None) -> Sheet:
+    """The table in a text. Raises InputError for the first cell that is no number, and for rows of another length.
+
+    `headerless` gives the column names for a table without a header row.
+    """
+    comments, comment_lines, content = [], [], []
+    for number, text in enumerate(source.lines, 1):
+        stripped = text.strip()
+        if stripped.startswith(COMMENTS) and not _is_row_of_units(text):
+            comments.append(stripped.lstrip("#%!/ \t"))
+            comment_lines.append(number)
+        elif stripped and stripped.strip(",;\t |") != "":
+            content.append((number, text))
+    if not content:
+        raise source.error(
+            "there is no table in it, only comments and blank lines" if comments else "the file is empty"
+        )
+    first = _first_row(content)
+    if first is None:
+        raise source.error(f"no row of numbers found; the first line is '{content[0][1].strip()[:60]}'", content[0][0])
+    delimiter, decimal = _style(
+        [text for _, text in content[first : first + LOOKED_AT]], content[first - 1][1] if first else None
+    )
+    names, notes, above = _header(source, content[:first], comments, headerless, delimiter, content[first])
+    values, lines, texts = rows_of(source, content[first:], names, delimiter, decimal, notes)
+    return Sheet(
+        names=names,
+        values=values,
+        lines=lines,
+        comments=comments + [text.strip() for _, text in above],
+        notes=notes,
+        comment_lines=comment_lines + [number for number, _ in above],
+        texts=texts,
+    )
+
+
+def _first_row(content) -> int | None:
+    """Where the rows begin: at the first line that is mostly numbers, or under a line of as many words.
+
+    The line that is mostly numbers may be the names' own, such as theta_i, theta_r, 400, 550, 700.
+    """
+    before: list[str] = []
+    for place, (_, text) in enumerate(content):
+        cells = _roughly(text)
+        numbers = sum(is_number(cell) for cell in cells)
+        named = len(before) == len(cells) > 2 and not any(is_number(cell) for cell in before)
+        if 2 * numbers > len(cells) or numbers > 1 and named:
+            return _below_the_names(content, place)
+        before = cells
+    return None
+
+
+def _below_the_names(content, first: int) -> int:
+    """One row further where the row found has words over a column of numbers."""
+    if first + 1 >= len(content):
+        return first
+    names, below = (_roughly(text) for _, text in content[first : first + 2])
+    words = [place for place, cell in enumerate(names) if cell[:1].isalpha() and len(cell) > 1 and not is_number(cell)]
+    return first + 1 if len(names) == len(below) and any(is_number(below[place]) for place in words) else first
+
+
+def _roughly(text: str) -> list[str]:
+    """The cells of a line whose style is not known yet, parted by the strongest mark in it, with decimal points."""
+    text = text.strip().replace('"', "")
+    mark = next((mark for mark in "\t;|" if mark in text), None)
+    cells = [_dotted(cell.strip(), ",") for cell in text.split(mark)]
+    if mark or "," not in text:
+        return cells
+    by_comma = [cell.strip() for cell in text.split(",")]
+    return max((by_comma, cells), key=lambda each: sum(is_number(cell) for cell in each) / max(len(each), 1))
+
+
+def cells_of(text: str, delimiter: str | None) -> list[str]:
+    """The cells of a line, without blanks around them and quotes; None stands for any white space."""
+    if '"' in text:
+        return _quoted(text.strip(), delimiter)
+    return text.split() if delimiter is None else [cell.strip() for cell in text.strip("\n").split(delimiter)]
+
+
+def _quoted(text: str, delimiter: str | None) -> list[str]:
+    """Cells of which some stand in quotes and may hold the delimiter; a doubled quote is one."""
+    cells, cell, pieces = [], "", text.split('"')
+    for place, piece in enumerate(pieces):
+        if place % 2:
+            cell += piece
+        elif place and place + 1 < len(pieces) and not piece:
+            cell += '"'
+        else:
+            first, *rest = _outside(piece, delimiter)
+            cell += first
+            for each in rest:
+                cells.append(cell.strip())
+                cell = each
+    return [*cells, cell.strip()]
+
+
+def _outside(piece: str, delimiter: str | None) -> list[str]:
+    """What stands between two quoted cells, parted by the delimiter."""
+    if delimiter is not None:
+        return piece.split(delimiter)
+    inner = " ".join(piece.split())
+    return f"{' ' * piece[:1].isspace()}{inner}{' ' * (bool(inner) and piece[-1:].isspace())}".split(" ")
+
+
+def is_number(cell: str) -> bool:
+    return holds_number(cell) or (cell.lower() in MISSING and cell != "")
+
+
+def _style(sample: list[str], header: str | None):
+    """The style in which every sampled line has as many cells as the header, most of them numbers, parted by something
+    better than blanks; else the first in which they have equally many, all numbers.
+    """
+
+    def score(style):
+        delimiter, decimal = style
+        rows = [cells_of(text, delimiter) for text in sample]
+        counts = [len(row) for row in rows]
+        common = max(set(counts), key=counts.count)
+        if common < 2:
+            return (False, False, 0.0, False)
+        good = sum(is_number(_dotted(cell, decimal)) or cell == "" for row in rows for cell in row) / sum(counts)
+        whole = sum(count == common for count in counts) / len(counts)
+        agrees = header is not None and len(cells_of(header, delimiter)) == common
+        whole_sheet = agrees and whole == 1 and good > 0.25  # the rest is text
+        return (whole_sheet, whole_sheet and delimiter is not None, round(good * whole, 3), agrees)
+
+    return max(STYLES, key=score)
+
+
+def _dotted(cell: str, decimal: str) -> str:
+    return cell.replace(",", ".", 1) if decimal == "," and cell.count(",") == 1 and "." not in cell else cell
+
+
+# --- names ------------------------------------------------------------------------------------------------
+
+
+def _header(source, before, comments, headerless, delimiter, first):
+    """Column names, what was skipped, and the lines of text above them.
+
+    The names are those of the option, of the line above the numbers, or of the last comment that has as many words.
+    """
+    number, text = first
+    most = len(cells_of(text, delimiter))
+    width = len(_trimmed(cells_of(text, delimiter)))
+    if headerless is not None:
+        if not width <= len(headerless) <= most:
+            raise source.error(f"--columns names {len(headerless)} columns; the rows have {width}", number)
+        return list(headerless), [text.strip() for _, text in before], before
+    skipped = list(before)
+    units = [] if len(skipped) < 2 else cells_of(skipped[-1][1], delimiter)
+    if units and all(_is_unit(cell) for cell in units):
+        skipped.pop()
+    else:
+        units = []
+    names = _names_in(skipped[-1][1], delimiter, width) if skipped else _commented(comments, delimiter, width)
+    if not names:
+        text = f"no header row above the numbers ({width} columns); name the columns with --columns, such as "
+        raise source.error(text + "theta_i,theta_r,brdf", number)
+    if not width <= len(names) <= most:
+        text = f"the header names {len(names)} columns ({', '.join(names)[:80]}); this row has {width}"
+        raise source.error(text, number)
+    if len(skipped) > 1 and _twice(names):
+        names = _under(_names_in(skipped[-2][1], delimiter, width), names)
+    if name := _twice(names):
+        raise source.error(f"two columns are called '{name[:60]}'", skipped[-1][0] if skipped else None)
+    if len(units) >= len(names):
+        units = [cell.strip("[]() ") for cell in units]
+        names = [
+            f"{name} [{unit}]" if unit not in ("", "-") else name for name, unit in zip(names, units, strict=False)
+        ]
+    return names, [f"line {line}: '{text.strip()[:40]}'" for line, text in skipped[:-1]], skipped[:-1]
+
+
+def _names_in(text: str, delimiter: str | None, width: int) -> list[str]:
+    """The names in a line; those between white space may hold single blanks, where two part them."""
+    names = _trimmed(cells_of(text, delimiter))
+    apart = [part.strip() for part in text.split("  ") if part.strip()] if delimiter is None else []
+    return apart if len(names) != width == len(apart) else names
+
+
+def _commented(comments, delimiter: str | None, width: int) -> list[str]:
+    """The last comment with as many words as there are columns."""
+    for comment in reversed(comments):
+        for style in (delimiter, None, ","):
+            names = _names_in(comment, style, width) if comment else []
+            if len(names) == width and not any(is_number(name) for name in names):
+                return names
+    return []
+
+
+def _is_unit(cell: str) -> bool:
+    """Whether a cell holds a unit and nothing else, or nothing."""
+    bare = cell.strip().strip('[](){}"')
+    if bare in ("", "-", "1"):
+        return True
+    column, left = facts(f"unit [{bare}]", colours=False)
+    says = column.unit or column.per_sr or column.scale
+    return bool(says) and [token.text for token in left] == ["unit"] and column.quantity is None
+
+
+def _is_row_of_units(text: str) -> bool:
+    """Whether a line that begins as a comment does is a row of units: `%, deg, deg` is no comment of Matlab's."""
+    if not text.strip().startswith("%"):
+        return False
+    mark = next((mark for mark in "\t;,|" if mark in text), None)
+    return mark is not None and all(_is_unit(cell) for cell in text.split(mark))
+
+
+def _twice(names: list[str]) -> str:
+    """The first name that stands twice."""
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen |= {name} - {""}
+    return ""
+
+
+def _under(heads: list[str], names: list[str]) -> list[str]:
+    """Names under heads that span several columns: `450 nm` over `BRDF` and `u(BRDF)`."""
+    if len(heads) > len(names) or not any(heads):
+        return names
+    spanning, found = "", []
+    for name, head in zip(names, heads + [""] * (len(names) - len(heads)), strict=True):
+        spanning = head or spanning
+        found.append(f"{name} {spanning}".strip() if names.count(name) > 1 else name)
+    return found
+
+
+def _trimmed(cells: list[str]) -> list[str]:
+    """Without the empty cells after a trailing delimiter."""
+    count = len(cells)
+    while count and not cells[count - 1].strip():
+        count -= 1
+    return [cell.strip() for cell in cells[:count]]
+
+
+# --- rows -------------------------------------------------------------------------------------------------
+
+
+def rows_of(source: Source, content, names, delimiter, decimal, notes):
+    """Values (rows, columns), the line of each row, and the cells of columns in which some are no numbers.
+
+    `content` are pairs of line number and text. Raises InputError for a row of another length.
+    """
+    width = len(names)
+    lines = np.array([number for number, _ in content])
+    texts = [text for _, text in content]
+    plain = decimal == "." and not any('"' in text for text in texts[:LOOKED_AT])
+    if plain:
+        try:
+            values = np.loadtxt(texts, delimiter=delimiter, comments=None, ndmin=2)
+            if values.shape[1] == width:
+                return values, lines, {}
+        except ValueError:
+            pass  # the slow way finds out where and why
+    rows, kept = [], []
+    for number, text in content:
+        cells = cells_of(text, delimiter)
+        if cells[:width] == names:
+            notes.append(f"line {number}: the header again")
+            continue
+        if len(cells) > width and not any(cells[width:]):
+            cells = cells[:width]
+        if len(cells) != width:
+            raise source.error(f"found {len(cells)} cells, wanted {width} ({', '.join(names)[:80]})", number)
+        rows.append([_dotted(cell, decimal) for cell in cells])
+        kept.append(number)
+    values, strange = np.full((len(rows), width), np.nan), {}
+    for place in range(width):
+        column = [row[place] for row in rows]
+        values[:, place], bad = _numbers(column)
+        if bad:
+            strange[place] = column
+    return values, np.array(kept, int), strange
+
+
+def _numbers(cells: list[str]) -> tuple[list[float], bool]:
+    """The cells as numbers, NaN where they hold none, and whether some hold something else."""
+    values, bad = [], False
+    for cell in cells:
+        try:
+            values.append(float(cell))
+        except ValueError:
+            values.append(np.nan)
+            bad = bad or cell.lower() not in MISSING
+    return values, bad

@@ -1,0 +1,45 @@
+"""Whether light is sent back to where it came from: a lobe about the source, which no model of the guide has."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import conventions
+from .measurement import Measurement, row_median
+
+STEEP_DEG = 12.0  # incidences nearer to the normal do not separate source and mirror direction
+
+
+@dataclass(frozen=True)
+class Retro:
+    """Medians over the incidences: how far the lobe about the source stands above its surroundings, and relative to the
+    mirror side."""
+
+    lobe: float
+    over_mirror: float
+    incidences: int
+
+
+def lobe(measurement: Measurement) -> Retro | None:
+    """None where nothing was measured within 6 degrees of the source at incidences beyond 12 degrees."""
+    geom = measurement.geom
+    level = row_median(np.where(measurement.usable, measurement.brdf, np.nan))
+    source = conventions.retro_distance_deg(geom)[:, 0]
+    mirror = np.degrees(2 * np.arcsin(np.minimum(0.5 * np.sqrt(geom.mirror_distance2[:, 0]), 1.0)))
+    counted = measurement.has_value & ((mirror > np.minimum(geom.theta_i_deg[:, 0], 12.0)) | (mirror < source))
+    at_source, about = counted & (source < 6.0), counted & (source > 10.0) & (source < 25.0) & (mirror > 12.0)
+    before = counted & (mirror < source) & (source > 15.0)
+    lobes, over = [], []
+    for angle, rows in measurement.incidences.items():
+        near = rows[at_source[rows]]
+        if angle < STEEP_DEG or not len(near):
+            continue
+        around, ahead = rows[about[rows]], rows[before[rows]]
+        if not len(around):
+            continue
+        lobes.append(level[near].max() / np.median(level[around]))
+        if len(ahead):
+            over.append(level[near].max() / level[ahead].max())
+    if not lobes:
+        return None
+    return Retro(float(np.median(lobes)), float(np.median(over)) if over else np.inf, len(lobes))

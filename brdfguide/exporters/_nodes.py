@@ -1,0 +1,320 @@
+"""A surface as the numbers of one shader: which of its settings come into question, and the best of them.
+
+A law of models/ is the shader; its parameters are the node's numbers. A surface of that very law is written as it is.
+A mirror beside a finite part becomes a coat of roughness 0, a polished surface a base of roughness 0; mirror and finite
+part then count alike.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from ..models.model import Model, Parameter
+from ..physics.geometry import Geometry, rows
+from . import _grained
+from ._choice import GOOD, ONE_LOBE, Choice, best_of, choose, has_body, what_is_lost
+from ._directions import judged_over, rms_ln
+from ._refit import TargetModel
+from ._smooth import MIRROR, is_smooth
+from .exporter import ColouredSurface, Statement, glint
+
+METAL_STARTS = (0.1, 0.5, 0.9)
+ALIKE = 0.2  # rms ln within which a polished base is taken before a coat over a base
+HIGH_DEG = 60.0  # beyond, laws and shaders part over what lies under a surface
+FAINT = 1e-2  # of a mirror's highest value: below it is not seen beside it
+
+
+@dataclass(frozen=True)
+class Node:
+    """A shader: its law, and what its numbers are called."""
+
+    law: Model
+    roughness: str
+    metalness: str
+    index: str
+    weight: str  # of the lobe on a body; 0: matt
+    edge: str  # a metal's edge colour; "": it has none
+    coat: str
+    coat_roughness: str
+    coat_index: str  # "": it is fixed
+    matt: Mapping[str, float]  # what makes it a body alone
+    under_rough_coat: bool = True  # whether a base stays smooth under a rough coat
+    by_schlick: bool = False  # whether F is Schlick's curve
+    grain: str = ""  # how long its streaks are; "": it has none
+
+    def target(self, free: tuple[str, ...], **fixed) -> TargetModel:
+        """The law with some numbers free and the rest at `fixed` and its defaults."""
+        held = {**self.law.defaults(), **fixed}
+        parameters = tuple(self._parameter(name, fixed) for name in free)
+        held = {name: value for name, value in held.items() if name not in free}
+        return TargetModel(parameters, lambda geom, **values: self.law(geom, **held, **values), held)
+
+    def tells(self, name: str, value) -> bool:
+        """Whether a number is worth writing: one of the four that make a surface, or one that is not its default."""
+        always = ("base_color", self.metalness, self.roughness, self.index)
+        return name in always or bool(np.any(np.ravel(value) != self.law.parameter(name).default))
+
+    def _parameter(self, name: str, fixed: Mapping) -> Parameter:
+        p = self.law.parameter(name)
+        if name == self.coat_roughness:  # a mirror has no lobe to judge by
+            return replace(p, low=0.04, log=True, starts=(0.1, 0.3, 0.6))
+        if name in (self.weight, self.coat):  # at 0 nothing would be left to judge
+            return replace(p, low=1e-4, log=True, starts=(0.1, 1.0))
+        if name != "base_color":
+            return replace(p, starts=p.starts or (0.1, 0.5, 1.0)[: 2 + (p.high <= 1)])
+        if fixed.get(self.metalness):
+            return replace(p, low=1e-3, log=True, starts=METAL_STARTS)
+        return replace(p, linear=True)
+
+    def ordinary(self, body: bool) -> dict[str, TargetModel]:
+        """Matt or with a lobe over a body; metal or bare dielectric without one."""
+        metal = {self.metalness: 1.0}
+        edge = (self.edge,) if self.edge else ()
+        dielectric = ("base_color", self.roughness, self.index, *self._free_weight())
+        if body:
+            return {"matt": self.target(("base_color",), **self.matt), "dielectric": self.target(dielectric)}
+        targets = {"metal": self.target(("base_color", *edge, self.roughness), **metal)}
+        return targets | {"dielectric": self.target(dielectric[1:], base_color=0.0)}
+
+    def grained(self, body: bool, axis: float) -> dict[str, TargetModel]:
+        """The same with a streak along an azimuth [rad]."""
+        held, edge = {"axis": axis}, (self.edge,) if self.edge else ()
+        if body:
+            free = ("base_color", self.roughness, self.index, *self._free_weight(), self.grain)
+            return {"dielectric": self.target(free, **held)}
+        return {
+            "metal": self.target(("base_color", *edge, self.roughness, self.grain), **{self.metalness: 1.0, **held})
+        }
+
+    def _free_weight(self) -> tuple[str, ...]:
+        """The weight of the lobe where the index alone does not carry it."""
+        return (self.weight,) if self.weight == "specular" and not self.edge else ()
+
+    def polished(self, body: bool) -> dict[str, TargetModel]:
+        """A base of roughness 0."""
+        smooth = {self.roughness: 0.0}
+        edge = (self.edge,) if self.edge else ()
+        free = (self.index, *self._free_weight())
+        if body:
+            return {"dielectric": self.target(("base_color", *free), **smooth)}
+        metal = {self.metalness: 1.0}
+        targets = {"metal": self.target(("base_color", *edge), **smooth, **metal)}
+        return targets | {"dielectric": self.target(free, base_color=0.0, **smooth)}
+
+    def coated(self, body: bool, n: float | None = None) -> dict[str, TargetModel]:
+        """A smooth coat over a body, with or without a lobe, over a metal; a polished base under a rough coat.
+
+        `n`: index of a coat that is known to be there; None: whatever makes the mirror.
+        """
+        held, coat = self._coat(n)
+        mirror = {self.coat_roughness: 0.0, **held}
+        metal = {self.metalness: 1.0}
+        haze = (self.coat, self.coat_roughness)
+        over_metal = {"metal under a coat": self.target(("base_color", self.roughness, *coat), **metal, **mirror)}
+        hazes = n is None and self.under_rough_coat
+        if not body:
+            hazy = self.target(("base_color", *haze), **metal, **{self.roughness: 0.0})
+            hazy_metal = {"polished metal under a haze": hazy} if hazes else {}
+            return over_metal | self._coated_lobes(mirror, coat) | hazy_metal
+        lobe, polished = ("base_color", self.roughness, self.weight), {self.roughness: 0.0}
+        hazy = self.target(("base_color", self.index, *haze), **polished)
+        return {
+            "matt under a coat": self.target(("base_color", *coat), **self.matt, **mirror),
+            "dielectric under a coat": self.target((*lobe, *coat), **mirror, **{self.index: 2.5}),
+            **({"polished body under a haze": hazy} if hazes else {}),
+            **over_metal,
+        }
+
+    def _coat(self, n: float | None) -> tuple[dict[str, float], tuple[str, ...]]:
+        """What is held of a coat, and what is free."""
+        if n is None or not self.coat_index:
+            return {}, (self.coat, *((self.coat_index,) if self.coat_index else ()))
+        return {self.coat: 1.0, self.coat_index: n}, ()
+
+    def under_rough(self, body: bool, n: float | None) -> dict[str, TargetModel]:
+        """A rough coat over a body, or over flakes and metals."""
+        held, coat = self._coat(n)
+        if body:
+            free = ("base_color", self.coat_roughness, *coat)
+            return {"matt under a rough coat": self.target(free, **self.matt, **held)}
+        free = ("base_color", self.roughness, self.coat_roughness, *coat)
+        return {"metal under a rough coat": self.target(free, **{self.metalness: 1.0}, **held)}
+
+    def _coated_lobes(self, mirror: Mapping, coat: tuple[str, ...]) -> dict[str, TargetModel]:
+        """Over flakes and metals besides: an edge that dims a lobe toward grazing, a weak lobe."""
+        weak = {"base_color": 0.0, self.index: 2.5, **mirror}
+        found = {"lobe under a coat": self.target((self.roughness, self.weight, *coat), **weak)}
+        if self.edge:
+            free = ("base_color", self.edge, self.roughness, *coat)
+            found["edged metal under a coat"] = self.target(free, **{self.metalness: 1.0}, **mirror)
+        return found
+
+
+def _coats_index(surface: ColouredSurface) -> float | None:
+    """Index of the coat of a surface, where it has one that is smooth to the eye."""
+    for term in surface.model.terms:
+        values = surface.values_of(term)
+        if (term.model.is_coat or term.model.is_mirror) and not np.any(values.get("sigma", 0.0)):
+            return None if np.any(values.get("k", 0.0)) or np.ptp(values["n"]) > 0 else float(np.mean(values["n"]))
+    return None
+
+
+def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> Choice:
+    """The best of the node's settings for a surface, with its numbers rounded as they will be written."""
+    own = _own_values(node, surface)
+    body = has_body(surface)
+    if own is not None:
+        own_target = {"own": node.target((), **own)}
+        return (
+            _with_mirror(node, surface, geom, own_target) if surface.has_mirror else choose(surface, geom, own_target)
+        )
+    if is_smooth(surface):
+        return replace(_with_mirror(node, surface, geom, node.polished(body)), brdf=None)
+    if surface.has_mirror:
+        if any(term.model.settings for term in surface.model.terms):  # a shader's own base may be the mirror
+            polished = _with_mirror(node, surface, geom, node.polished(body))
+            if polished.rms_ln <= ALIKE:
+                return polished
+        return _with_mirror(node, surface, geom, node.coated(body, _coats_index(surface)))
+    axis = _grained.axis_of(surface)
+    if axis is not None:
+        return choose(surface, geom, node.grained(body, axis))
+    rough = node.coat and any(term.model.is_coat for term in surface.model.terms)
+    coated = node.under_rough(body, _coats_index(surface)) if rough else {}
+    return choose(surface, geom, node.ordinary(body) | coated)
+
+
+def what_it_costs(node: Node, surface: ColouredSurface, choice: Choice) -> tuple[str, ...]:
+    """Sentences for what the shader cannot hold, and for what it lacks where the numbers are off by more than GOOD."""
+    if _own_values(node, surface) is not None:
+        return ()
+    lacks = () if choice.rms_ln <= GOOD else (_lacks(node, surface, choice),)
+    if is_smooth(surface):
+        return lacks
+    lost = what_is_lost(surface)
+    if np.any(choice.values.get(node.coat, 0.0)):  # one lobe is the coat's
+        lost = tuple(each for each in lost if not each.endswith(ONE_LOBE))
+    return (() if surface.has_mirror else glint(surface)) + lost + lacks
+
+
+def _lacks(node: Node, surface: ColouredSurface, choice: Choice) -> str:
+    """Why the best numbers are far off, and how far where light and eye stand high."""
+    kinds = [term.model for term in surface.model.terms]
+    if any(kind.is_coat for kind in kinds) and len(kinds) > 1:
+        why = "light is not bent in its coat, so that what lies below grows toward grazing as if it were bare"
+    elif surface.has_mirror and not any(kind.is_mirror for kind in kinds):
+        why = "the mirror image of a rough surface becomes a coat's, which does not fade as waves fade it"
+    elif any(kind.is_body for kind in kinds) or has_body(surface) and kinds[0].settings:
+        why = "it takes from the body what the surface above reflects, and the law adds both"
+    elif surface.has_mirror and len(kinds) > 1:
+        why = "it takes from the lobe what the coat reflects, and the law adds both"
+    elif node.by_schlick:
+        why = "F is Schlick's curve, which lies below Fresnel's between 40 and 80 degrees"
+    else:
+        why = "its lobe is GGX's, and this one has another shape"
+    high = _off_up_to(HIGH_DEG, surface, choice)
+    return why if high is None else f"{why}; up to {HIGH_DEG:g} degrees rms ln {high:.2g}"
+
+
+def _off_up_to(most_deg: float, surface: ColouredSurface, choice: Choice) -> float | None:
+    """rms ln of the finite part where neither light nor eye stands lower; None where there is none."""
+    if choice.brdf is None or is_smooth(surface):
+        return None
+    geom, wanted, _ = judged_over(surface, None)
+    high = (geom.theta_i_deg <= most_deg) & (geom.theta_r_deg <= most_deg)
+    return rms_ln(choice.brdf(geom), np.where(high, wanted, np.nan))
+
+
+def _own_values(node: Node, surface: ColouredSurface) -> dict | None:
+    """Its values by colour, of a surface of the node's own law; else None."""
+    if [term.model for term in surface.model.terms] != [node.law]:
+        return None
+    of_term = surface.values_of(surface.model.terms[0])
+    values = {}
+    for p in node.law.parameters:
+        value = surface.nonlinear(of_term[p.name])
+        if value is None:
+            return None
+        values[p.name] = float(value[0]) if np.ptp(value) == 0 else value
+        if not p.per_channel and np.ptp(value) > 0:
+            return None
+    return values
+
+
+def _with_mirror(
+    node: Node, surface: ColouredSurface, geom: Geometry | None, targets: Mapping[str, TargetModel]
+) -> Choice:
+    """The best of `targets` for the finite part and for the mirror, which count alike; the worse of both is stated."""
+    mirrored = rows(Geometry.from_degrees(MIRROR, 0.0, MIRROR, 180.0))
+    reflected = surface.mirror_rgb(mirrored)
+    reflected = np.where(reflected >= FAINT * np.max(reflected), reflected, np.nan)
+    if np.any(surface.rgb(rows(Geometry.from_degrees(30.0, 0.0, 50.0, 120.0)))):
+        finite_geom, finite, over = judged_over(surface, geom)
+    else:
+        finite_geom, finite, over = mirrored[:0], np.empty((0, 3)), "no finite directions"
+    copies = max(1, round(len(finite_geom) / len(MIRROR)))
+    wanted = np.concatenate((finite, np.repeat(reflected, copies, axis=0)))
+    stacked = {
+        name: replace(target, brdf=partial(_stacked, node.law, target.fixed, finite_geom, mirrored, copies))
+        for name, target in targets.items()
+    }
+    both = rows(Geometry.from_degrees(np.zeros(len(wanted)), 0.0, np.zeros(len(wanted)), 0.0))
+    words = f"{len(MIRROR)} mirror directions" + (f" and {over}" if len(finite_geom) else "")
+    choice = best_of(stacked, both, wanted, None, words)
+    written = _stacked(node.law, {}, finite_geom, mirrored, copies, both, **choice.values)
+    worst = max(rms_ln(written[: len(finite)], finite), rms_ln(written[len(finite) :], wanted[len(finite) :]))
+    return replace(
+        choice,
+        rms_ln=worst,
+        brdf=partial(_law_at, node.law, choice.values),
+        mirror=partial(_mirror_at, node.law, choice.values),
+    )
+
+
+def _law_at(law: Model, values: Mapping, geom: Geometry) -> np.ndarray:
+    return law(geom, **values)
+
+
+def _mirror_at(law: Model, values: Mapping, geom: Geometry) -> np.ndarray:
+    return law.mirror(geom, **values) if law.mirror else np.zeros(geom.shape)
+
+
+def _stacked(law: Model, fixed: Mapping, finite: Geometry, mirrored: Geometry, copies: int, _, **values) -> np.ndarray:
+    """BRDF in the finite directions and, `copies` times each, reflectances of the mirror: (samples, colours)."""
+    values = {**law.defaults(), **fixed, **values}
+    above, shiny = law(finite, **values), np.repeat(_mirror_at(law, values, mirrored), copies, axis=0)
+    colours = max(above.shape[1], shiny.shape[1])
+    return np.concatenate([np.broadcast_to(part, (len(part), colours)) for part in (above, shiny)])
+
+
+def readings(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometry | None) -> tuple[str, ...]:
+    """What the same numbers cost in programs that read the shader's text in another published way."""
+    if choice.brdf is None or not node.law.readings:
+        return ()
+    geom, wanted, _ = judged_over(surface, geom)
+    found = []
+    for words, law in node.law.readings.items():
+        other: Callable = replace(node.law, brdf=law)
+        error = rms_ln(other(geom, **{**node.law.defaults(), **choice.values}), wanted)
+        found.append(f"as MaterialX's nodes evaluate it; with {words}, as other programs have it, rms ln {error:.2g}")
+    return tuple(found)
+
+
+def _streak(node: Node, axis: float) -> tuple[str, ...]:
+    """Where the streak lies, and who must turn the tangent."""
+    if node.law.name == "openpbr":
+        return _grained.tangent_note(axis, "geometry_tangent")
+    turned = f"{np.degrees(axis) % 180:.3g} degrees counter-clockwise from the tangent"
+    return (f"the streak lies along the tangent turned by its own rotation, {turned}; the grooves run across it",)
+
+
+def node_statement(
+    node: Node, target: str, surface: ColouredSurface, geom: Geometry | None
+) -> tuple[Choice, Statement]:
+    """The numbers of the node and their Statement."""
+    choice = choose_node(node, surface, geom)
+    axis = _grained.axis_of(surface)
+    notes = readings(node, choice, surface, geom) + (() if axis is None else _streak(node, axis))
+    return choice, choice.statement(target, surface, lost=what_it_costs(node, surface, choice), notes=notes)

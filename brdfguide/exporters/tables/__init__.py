@@ -1,0 +1,1 @@
+"""Surfaces as tables of values: containers, node placement, dense tables."""

@@ -1,0 +1,1 @@
+"""The public face: what `import brdfguide` gives, which the command line calls too."""

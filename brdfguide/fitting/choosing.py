@@ -1,0 +1,173 @@
+"""Which model of a ranking to use, and why: the cheapest of those that the data cannot tell from the best, or that come
+close enough to it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..data.measurement import Measurement
+from ..errors import InputError
+from ..finding import Finding
+from ..flags import Effect
+from ..physics import seen
+from . import appearance
+from .plausible import foreseeing, plausible
+from .ranked import Ranking, Row
+
+ALLOWED = 0.05  # rms ln that closeness to the eye may always cost: typically 5 % (ours)
+ALLOWED_SHARE = 0.25  # of the best error, where that is more: the tolerance that its S has as well (ours)
+SIMPLER = 0.9  # times the fewest numbers of those that tie, up to which another is simpler, as closeness asks (ours)
+CHEAPER = 0.8  # times the operations of another, from which on a model is called cheaper
+
+
+def recommending(ranking: Ranking, measurement: Measurement) -> Ranking:
+    """The same with the model to use, why, which come close enough, and how good the best looks."""
+    best = trusted(ranking.rows)[0]
+    if ranking.close == "look" and _is_stray_light(best):
+        ranking = replace(ranking, close="none")
+    rows = tuple(replace(row, close=is_close(row, best, ranking)) for row in ranking.rows)
+    pick, because = picked(rows, ranking.close, ranking.kind)
+    doubts = tuple(each for each in ranking.warnings if each.effect is not Effect.OF_LOOKS)
+    looks = (_no_look(rows), appearance.too_coarse(best.fit.surface, measurement))
+    return replace(
+        ranking,
+        rows=rows,
+        recommended=pick,
+        because=because,
+        warnings=(*doubts, *(each for each in looks if each)),
+    )
+
+
+def _is_stray_light(row: Row) -> bool:
+    """Whether a row is of polished optics, whose scatter people measure that no picture shows."""
+    return any(term.model.candidacy and term.model.candidacy.polished for term in row.fit.model.terms)
+
+
+def is_close(row: Row, best: Row, ranking: Ranking) -> bool:
+    """Whether a row comes close enough to the best that can be trusted: `look`, to the eye; `N%`, by its error; `none`,
+    never."""
+    if ranking.close == "none" or row not in trusted(ranking.rows):
+        return False
+    if ranking.close == "look":
+        least = min(each.seen for each in trusted(ranking.rows))
+        allowed = best.rms_ln + max(ALLOWED, ALLOWED_SHARE * best.rms_ln) + 1e-9
+        return row is best or (seen.close_enough(row.seen, least) and row.rms_ln <= allowed)
+    return row.rms_ln - best.rms_ln <= percent_of(ranking.close) / 100
+
+
+def percent_of(close: str) -> float:
+    """The percentage in `1%`. Raises InputError for anything else that is not `look` or `none`."""
+    number = close.removesuffix("%").strip()
+    try:
+        percent = float(number) if close.endswith("%") else -1.0
+    except ValueError:
+        percent = -1.0
+    if not 0 < percent <= 100:
+        raise InputError(f"--close {close}: wanted look, none, or a percentage such as 1%")
+    return percent
+
+
+def check_close(close: str) -> None:
+    """Raises InputError for what --close does not know."""
+    if close not in ("look", "none"):
+        percent_of(close)
+
+
+def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) -> tuple[Row, str]:
+    """The cheapest of those that tie with the best trusted one or come close enough to it, and the reason in words.
+
+    Of several that cost alike one that ties, and the simplest. Where closeness does not count, the simplest of those
+    that cannot be told apart. Closeness counts for what is simpler than those that tie. Of those that tie none that is
+    systematically off and errs more at angles left out than another; none that what is known of the surface
+    (`plausible`; its `kind`) rules out.
+    """
+    good = trusted(rows)
+    best = good[0]
+    equal = [row for row in good if row.tied] if best.tied else [best]
+    near = [row for row in good if row.close and row not in equal]
+    aside = _passed(rows[: rows.index(best)])
+    if close == "look":
+        farther = [row for row in equal if _seen_farther(row, best)]
+        equal = [row for row in equal if row not in farther]
+        aside += _but_farther(farther, best)
+    equal, doubts = foreseeing(equal)
+    aside += doubts
+    left, doubts = plausible([*equal, *near], best, kind)
+    equal, near = ([row for row in group if row in left] for group in (equal, near))
+    aside += doubts
+    if equal:
+        near = [row for row in near if row.fit.free <= SIMPLER * min(each.fit.free for each in equal)]
+    pick = min(equal or near, key=lambda row: (row.fit.free, row.work))
+    if close != "none":
+        least = min(row.work for row in (*equal, *near))
+        cheap = [row for row in (*equal, *near) if CHEAPER * row.work <= least]
+        pick = min(cheap, key=lambda row: (row not in equal, row.fit.free, row.rms_ln))
+    if pick in near:
+        return pick, f"{_close_words(pick, best, close)}{_gain(pick, best)}{aside}"
+    if pick is not best:
+        return pick, f"cannot be told from {best.fit.name} by these data{_gain(pick, best)}{aside}"
+    if len(equal) > 1:
+        others = ", ".join(row.fit.name for row in equal if row is not pick)
+        return pick, f"least error, and the simplest of those that cannot be told apart by these data ({others}){aside}"
+    behind = [row for row in good if row is not pick]
+    if not behind:
+        return pick, f"the only candidate{aside}"
+    gap = behind[0].rms_ln - pick.rms_ln
+    alike = f", and the cheapest of {len(near) + 1} that come close enough" if near else ""
+    return pick, f"least error{alike}; {behind[0].fit.name} follows {gap:.2g} behind in rms ln{aside}"
+
+
+def trusted(rows: Sequence[Row]) -> list[Row]:
+    """Those without a doubt that forbids to recommend them; all, where none is."""
+    return [row for row in rows if not any(each.effect is Effect.FORBIDS for each in row.warnings)] or list(rows)
+
+
+def _seen_farther(row: Row, best: Row) -> bool:
+    """Whether nine of ten people would see that a row is farther from the data than the best."""
+    return row.seen >= max(seen.ALIKE, seen.CLEARER * best.seen)
+
+
+def _but_farther(rows: Sequence[Row], best: Row) -> str:
+    """An aside on ties that the eye breaks."""
+    if not rows:
+        return ""
+    names = ", ".join(row.fit.name for row in rows)
+    return f"; {names} cannot be told from {best.fit.name} by these data, but would be seen to be farther off"
+
+
+def _passed(rows: Sequence[Row]) -> str:
+    """An aside on those with less error that cannot be trusted."""
+    if not rows:
+        return ""
+    names, verb = ", ".join(row.fit.name for row in rows), "has" if len(rows) == 1 else "have"
+    return f"; {names} {verb} less error but cannot be trusted"
+
+
+def _gain(pick: Row, best: Row) -> str:
+    """What is won by taking another than the best; nothing where only what is known of the surface decides."""
+    reasons = []
+    if pick.fit.free < best.fit.free:
+        fewer = best.fit.free - pick.fit.free
+        reasons.append(f"has {fewer} fewer parameter{'s' if fewer > 1 else ''}")
+    if pick.work < CHEAPER * best.work:
+        reasons.append("is cheaper to evaluate")
+    return f", and {' and '.join(reasons)}" if reasons else ""
+
+
+def _close_words(pick: Row, best: Row, close: str) -> str:
+    """Why a pick that the data can tell from the best will do all the same, and what that costs in error."""
+    cost = f"typically {100 * np.expm1(pick.rms_ln):.2g} % off instead of {100 * np.expm1(best.rms_ln):.2g} %"
+    if close != "look":
+        return f"close enough to {best.fit.name}, {cost}"
+    return f"looks close enough to {best.fit.name} (S {pick.seen:.2g} against {best.seen:.2g} L*; {cost})"
+
+
+def _no_look(rows: Sequence[Row]) -> Finding | None:
+    """Where even the best is seen to differ."""
+    least = min(trusted(rows), key=lambda row: row.seen)
+    if not least.seen > seen.NO_MODEL:
+        return None
+    text = f"no single model looks right: the best, {least.fit.name}, is {least.seen:.2g} L* from the data on a sphere"
+    return Finding("no-model-looks-right", text, "warning", "side by side most people will see the difference")

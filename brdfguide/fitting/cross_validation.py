@@ -1,0 +1,215 @@
+"""How a fitted model behaves where it was not fitted: left-out angles and turns, toward grazing, imitated spikes."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from ..data import scans
+from ..data.measurement import Measurement
+from ..data.turning import turn_of_each
+from ..finding import Finding
+from ..flags import Effect
+from ..formed import formed
+from ..models import Composite
+from ..models.surface import Surface
+from ..physics.aperture import Instrument
+from ..physics.geometry import Geometry, in_plane, rows
+from . import starting_grid
+from .choosing import recommending
+from .fit import Fit, FitOptions
+from .layout import Layout
+from .objective import Misfit, metric
+from .prepared import few_channels
+from .ranked import HeldOut, Ranking
+from .reading import reading
+from .residuals import ln_residuals
+
+FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
+SAMPLES = 500  # directions for the repeated fits
+WORSE = 1.25  # times the held-out error of the best single lobe, beyond which the same is said (ours)
+MOST_GROWN = 88.0  # degrees of incidence; nothing is compared at the horizon itself
+IMITATION = 2.5  # held-out error over fitted error beyond which a model is said to imitate (ours)
+
+
+def held_out(fit: Fit, used: Measurement, options: FitOptions = FitOptions()) -> HeldOut | None:
+    """Refits without each group of incidence angles and predicts it; None with fewer than two groups that can be told.
+
+    A group none of whose values is clear of the dark level has no error on a scale of ratios: it helps to fit the
+    others and is not held out itself. `used` is what `thinned` leaves of the measurement that the fit was made to.
+    """
+    return held_out_from(fit.model, thinned_surface(fit).values, used, options)
+
+
+def held_out_from(
+    model: Composite, values: Mapping, used: Measurement, options: FitOptions = FitOptions()
+) -> HeldOut | None:
+    """The same of a model that was fitted to all of `used` with these values."""
+    if not can_hold_out(used):
+        return None
+    folds = _divided(used)
+    layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
+    start = layout.encode(values)
+    squares, counts, last = 0.0, 0, np.nan
+    for rest, inside in folds:
+        misfit = Misfit(layout, rest, metric(options.metric), np.ones_like(rest.brdf))
+        end = misfit.descend(start, 1e-4, most=20)
+        residuals = ln_residuals(layout.surface(end.shared, end.per_channel, inside), inside)
+        squares, counts = squares + np.nansum(residuals**2), counts + int(np.count_nonzero(np.isfinite(residuals)))
+        last = float(np.sqrt(np.nanmean(residuals**2)))
+    highest = folds[-1][1]
+    told = highest.clear.any(axis=1)
+    return HeldOut(float(np.sqrt(squares / counts)), last, float(highest.geom.theta_i_deg[told].max()))
+
+
+def can_hold_out(used: Measurement) -> bool:
+    """Whether there are two groups of incidence angles that can be told."""
+    return len(_divided(used)) > 1
+
+
+def growth(fit: Fit, measurement: Measurement) -> dict | None:
+    """R-mirror and R-max of model and data between the lowest and the highest incidence angle at which the mirror
+    direction was measured (FIELDGUIDE section 6).
+
+    R-mirror = f(mirror, high) / f(mirror, low);  R-max the same for the largest value in the plane of incidence. The
+    model is taken at the measured direction nearest to the mirror's.
+    """
+    channel = measurement.brdf.shape[1] // 2
+    angles = _compared_incidences(measurement)
+    if angles is None:
+        return None
+    # a peak beyond the last detector angle is in no data
+    angular_range = min(85.0, float(np.max(measurement.geom.theta_r_deg)))
+    theta_r = np.linspace(-angular_range, angular_range, 171)
+    surface, model, data = fit.surface.channel(channel), [], []
+    for theta in angles:
+        nearest, mirror, largest = _peaks(measurement, theta, channel)
+        at_mirror, scan = (
+            reading(surface, Instrument(geom, measurement.solid_angle))
+            for geom in (nearest or rows(in_plane(theta, [theta])), rows(in_plane(theta, theta_r)))
+        )
+        model.append((float(at_mirror[0, 0]), float(np.max(scan))))
+        data.append((mirror, largest))
+
+    def ratio(pair, place):
+        return pair[1][place] / pair[0][place] if pair[0][place] else np.nan
+
+    return {
+        "theta_i_deg": list(angles), "r_mirror": ratio(model, 0), "r_max": ratio(model, 1),
+        "r_mirror_data": ratio(data, 0), "r_max_data": ratio(data, 1),
+    }  # fmt: skip
+
+
+def imitation(fit: Fit, held: HeldOut | None, single: float = np.inf) -> Finding | None:
+    """A model of several lobes that is right only at the angles it was fitted to: held out it errs several times as
+    much, or clearly more than the best model of one lobe does there (`single`)."""
+    if held is None or _lobes(fit) < 2 or held.rms_ln < min(IMITATION * fit.rms_ln, WORSE * single):
+        return None
+    text = f"held-out error {held.rms_ln:.2g} against {fit.rms_ln:.2g} fitted"
+    text += f", where a single lobe has {single:.2g}" if held.rms_ln >= WORSE * single else ""
+    text += ": its lobes imitate the data at the fitted angles only"
+    return Finding("imitates", text, "warning", "do not use it between or beyond these angles")
+
+
+def _lobes(fit: Fit) -> int:
+    """How many of its terms are lobes of one kind."""
+    return sum(term.label.rpartition(".")[2].isdigit() for term in fit.model.terms)
+
+
+def thinned(measurement: Measurement) -> Measurement:
+    """Few enough directions and channels for repeated fits."""
+    kept = measurement[measurement.has_value]
+    rows = starting_grid.spread_rows(kept, SAMPLES)
+    return kept[rows].of_channels(few_channels(measurement.brdf.shape[1]))
+
+
+def thinned_surface(fit: Fit) -> Surface:
+    """The fitted surface in the channels that `thinned` leaves of a measurement."""
+    return fit.surface.of_channels(few_channels(len(fit.surface.channels)))
+
+
+@formed
+def _divided(measurement: Measurement) -> list[tuple[Measurement, Measurement]]:
+    """What is kept and what is held out, in turn; only groups with a value that is clear of the dark level."""
+    clear = measurement.clear.any(axis=1)
+    folds = [*_turned_folds(measurement), *_folds(measurement.geom.theta_i_deg[:, 0])]
+    return [(measurement[~inside], measurement[inside]) for inside in folds if np.any(clear & inside)]
+
+
+def _turned_folds(measurement: Measurement) -> list[np.ndarray]:
+    """Masks of turns of the sample, each left out; none where what is left would be one turn."""
+    turns = turn_of_each(measurement.geom)
+    if turns is None or turns.max() < 2:
+        return []
+    groups = turns % FOLDS
+    return [groups == each for each in np.unique(groups)]
+
+
+def _folds(angles) -> list[np.ndarray]:
+    """Masks of groups of like size of ascending incidences; the last holds the steepest alone if they are few."""
+    distinct = np.unique(np.round(angles, 1))
+    if len(distinct) <= FOLDS:
+        return [np.abs(angles - each) < 0.06 for each in distinct] if len(distinct) > 1 else []
+    edges = np.quantile(angles, np.linspace(0, 1, FOLDS + 1))
+    edges[0], edges[-1] = -1.0, 91.0
+    masks = [(angles > lower) & (angles <= upper) for lower, upper in pairwise(edges)]
+    return [mask for mask in masks if np.any(mask) and not np.all(mask)]
+
+
+@formed
+def _compared_incidences(measurement: Measurement) -> tuple[float, float] | None:
+    """The lowest and the highest incidence [deg] with a value near the mirror direction; with any value, where there
+    are no two such; None where there are no two at all."""
+    channel = measurement.brdf.shape[1] // 2
+    seen = [
+        theta
+        for theta, rows in measurement.incidences.items()
+        if theta < MOST_GROWN and measurement.clear[rows, channel].any()
+    ]
+
+    def reads_mirror(theta):
+        return _peaks(measurement, theta, channel)[0] is not None
+
+    low = next(filter(reads_mirror, sorted(seen)), None)
+    high = next(filter(reads_mirror, sorted(seen, reverse=True)), None)
+    if low is None or high is None or not low < high:
+        return (min(seen), max(seen)) if len(seen) > 1 else None
+    return low, high
+
+
+def _peaks(measurement: Measurement, theta: float, channel: int) -> tuple[Geometry | None, float, float]:
+    """The direction nearest to the mirror's and its value (None and NaN where none lies within 3°), and the largest
+    value in the plane of incidence."""
+    part = measurement[measurement.incidences[theta]]
+    part = part[part.clear[:, channel] & (part.geom.off_plane_deg[:, 0] < 3)]
+    if not len(part.geom):
+        return None, np.nan, np.nan
+    values, away = part.brdf[:, channel], part.geom.mirror_distance2[:, 0]
+    nearest = int(np.argmin(away))
+    if away[nearest] > np.radians(3) ** 2:
+        return None, np.nan, float(values.max())
+    return part.geom[[nearest]], float(values[nearest]), float(values.max())
+
+
+def validated(
+    ranking: Ranking, measurement: Measurement, options: FitOptions = FitOptions(), progress=lambda name: None
+) -> Ranking:
+    """The same ranking with growth, held-out errors of what was refined, and a warning for models that imitate."""
+    few, helds, alone = thinned(measurement), [], not scans.independent(measurement)
+    for row in ranking.rows:
+        progress(row.fit.name)
+        unrefined = alone or any(warning.effect is Effect.UNREFINED for warning in row.fit.warnings)
+        helds.append(None if unrefined else held_out(row.fit, few, options))
+    single = min(
+        (held.rms_ln for row, held in zip(ranking.rows, helds, strict=True) if held and _lobes(row.fit) < 2),
+        default=np.inf,
+    )
+    rows = []
+    for row, held in zip(ranking.rows, helds, strict=True):
+        warning = imitation(row.fit, held, single)
+        warnings = row.warnings + ((warning,) if warning else ())
+        rows.append(
+            replace(row, held_out=held, growth=None if alone else growth(row.fit, measurement), warnings=warnings)
+        )
+    return recommending(replace(ranking, rows=tuple(rows)), measurement)

@@ -1,0 +1,1 @@
+"""What a fitted number is worth: standard errors, intervals, bounds."""

@@ -1,0 +1,244 @@
+"""What an instrument does to whole scans: a gain for each incidence and the zero of the detector's arm, beside a model.
+
+    ln(value) = ln f(theta_i, theta_r + zero) + gain(theta_i) + noise
+
+Both are unknown and small: normal about 0 with `GAIN` and `ZERO_DEG` as their standard deviations. They are fitted
+together with the model by Gauss-Newton steps in which the priors count as values, so that its standard errors hold what
+they leave open; and only where they take away what the model could not follow.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..data.measurement import Measurement
+from ..data.noise_model import SIGMA_PER_MEDIAN
+from ..data.scans import arm_turned
+from ..finding import Finding
+from ..flags import Effect
+from ..numerics.covariance import covariance_of
+from . import weights
+from .diagnostics import standard_errors
+from .layout import Layout
+from .objective import METRICS, Misfit
+from .prepared import Prepared
+from .reading import reading
+
+GAIN = 0.02  # prior standard deviation of ln gain between scans: lamp and detector of a goniometer (ours)
+ZERO_DEG = 0.2  # prior standard deviation of the arm's zero (ours)
+MOST_SCANS = 40  # with more incidences none was held
+LEAST_IN_SCAN = 6  # directions
+STEP = 1e-3  # of ln gain and of degrees, for differences
+STEPS = 3  # of Gauss and Newton
+SURE = 4.0  # standard deviations of chi² by which the misfit must fall
+MOST_CHANNELS = 31  # more make the joint problem dear
+LIKELY = 4.0  # prior standard deviations; what is farther off is no drift
+WILD = 3.0  # robust standard deviations beyond which a residual is cut, lest a few hide that the others correlate
+
+
+@dataclass(frozen=True, eq=False)
+class Drift:
+    """What was found of an instrument beside one model."""
+
+    theta_i_deg: np.ndarray  # (scans,)
+    ln_gains: np.ndarray  # (scans,): the values were that much too bright
+    ln_gains_stderr: np.ndarray
+    zero_deg: float  # the true angle is the reported one plus this
+    zero_stderr_deg: float
+
+
+@dataclass(frozen=True, eq=False)
+class Adjusted:
+    """A model and an instrument that were fitted together."""
+
+    drift: Drift
+    values: dict
+    stderr: dict
+    penalised: float  # sum of squares, those of the priors included, in units of `variance`
+    variance: float  # of one residual, as many times as channels say the same
+    before: float  # sum of squares of the model alone
+    at: tuple[np.ndarray, np.ndarray]  # coordinates
+
+
+def scans_of(measurement: Measurement) -> tuple[np.ndarray, np.ndarray] | None:
+    """Incidence angles [deg] and the number of each row's scan; None where no incidence was held."""
+    angles, scan = np.unique(np.round(measurement.geom.theta_i_deg[:, 0], 1), return_inverse=True)
+    if not 2 <= len(angles) <= MOST_SCANS or np.median(np.bincount(scan)) < LEAST_IN_SCAN:
+        return None
+    return angles, scan.reshape(-1)
+
+
+def without_drift(measurement: Measurement, drift: Drift) -> Measurement:
+    """The values without their gains, the directions with the arm's zero."""
+    scan = np.argmin(np.abs(measurement.geom.theta_i_deg - drift.theta_i_deg), axis=1)
+    gain = np.exp(drift.ln_gains[scan])[:, None]
+    stderr = None if measurement.stderr is None else measurement.stderr / gain
+    geom = arm_turned(measurement.geom, drift.zero_deg)
+    return replace(measurement, geom=geom, brdf=measurement.brdf / gain, stderr=stderr)
+
+
+def adjusted(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndarray) -> Adjusted | None:
+    """Model and instrument together, from the model's own values; None where the data have no scans.
+
+    `residuals` ln(model/data) of the model alone, where the best models settle.
+    """
+    found = scans_of(data.fewer.measurement)
+    if found is None or layout.channels > MOST_CHANNELS:
+        return None
+    angles, scan = found
+    misfit, alike = _by_noise(layout, data, residuals)
+    shared, per_channel = layout.encode(values)
+    if not alike:
+        alone = misfit.descend((shared, per_channel), 1e-6)
+        shared, per_channel = alone.shared, alone.per_channel
+    priors = np.r_[np.full(len(angles), GAIN), ZERO_DEG]
+    columns = _columns(misfit, shared, per_channel, scan, len(angles))
+    nuisance = np.zeros(len(priors))
+    alone = misfit(shared, per_channel, False)
+    before, common = float(np.sum(alone**2)), standard_errors.common_channels(alone)
+    count = int(np.count_nonzero(data.fewer.measurement.weighed)) - layout.count
+    variance = common * before / max(count, 1)
+    for _ in range(STEPS):
+        step, covariance, free = _step(misfit, shared, per_channel, columns, nuisance, variance / priors**2)
+        shared, per_channel = _moved(layout, shared, per_channel, step[: len(step) - len(priors)], free)
+        nuisance = nuisance + step[-len(priors) :]
+        left = misfit(shared, per_channel, False) + np.tensordot(columns, nuisance, axes=(2, 0))
+        common = standard_errors.common_channels(left)
+        variance = max(common * float(np.sum(left**2)) / max(count - len(priors), 1), 1e-30)
+    errors = np.sqrt(variance * np.diag(covariance))
+    drift = Drift(angles, nuisance[:-1], errors[-len(priors) : -1], float(nuisance[-1]), float(errors[-1]))
+    all_values = layout.decode(shared, per_channel)
+    return Adjusted(
+        drift=drift,
+        values=all_values,
+        stderr=_errors(layout, all_values, errors[: -len(priors)] ** 2, free),
+        penalised=float(np.sum(left**2) / variance + np.sum((nuisance / priors) ** 2)),
+        variance=variance,
+        before=before / variance,
+        at=(shared, per_channel),
+    )
+
+
+def _by_noise(layout: Layout, data: Prepared, residuals: np.ndarray) -> tuple[Misfit, bool]:
+    """The misfit in which every residual has one variance, without which its fall is no chi²; and whether it is the
+    fit's own: there a sparse scan counts more than it is sure, and dim values as much as bright ones."""
+    own, few = data.fewer.misfit(layout, METRICS["ln"]), data.fewer
+    variance = float(np.nanmean(residuals**2))
+    unlike = weights.unlike(few.measurement, data.sample_weights, data.used, few.rows, variance)
+    if unlike is None:
+        return own, True
+    counted = few.weights / np.where(few.measurement.weighed, unlike, 1.0)
+    return replace(own, weights=counted / np.mean(counted[few.measurement.weighed])), False
+
+
+def _columns(misfit: Misfit, shared, per_channel, scan, scans: int) -> np.ndarray:
+    """d residual / d nuisance, (samples, channels, scans + 1): the gains, then the zero.
+
+    A gain is taken of the model: of a value near the dark level it would follow that value's own noise.
+    """
+    measurement = misfit.measurement
+    surface = misfit.layout.surface(shared, per_channel, measurement)
+    model = np.where(measurement.weighed, reading(surface, measurement.instrument), np.nan)
+
+    def residual(other: Measurement):
+        return replace(misfit, measurement=other)(shared, per_channel, False)
+
+    gain = [residual(replace(measurement, brdf=model * np.exp(sign * STEP))) for sign in (-1, 1)]
+    zero = [residual(replace(measurement, geom=arm_turned(measurement.geom, sign * STEP))) for sign in (1, -1)]
+    columns = np.zeros((*gain[0].shape, scans + 1))
+    columns[np.arange(len(scan)), :, scan] = (gain[0] - gain[1]) / (2 * STEP)
+    columns[..., -1] = (zero[0] - zero[1]) / (2 * STEP)
+    return columns
+
+
+def _step(misfit: Misfit, shared, per_channel, columns, nuisance, weights):
+    """One step of all that is free, its covariance in units of the variance, and which coordinates are free."""
+    residual, j_shared, j_per_channel = misfit(shared, per_channel, True)
+    left = residual + np.tensordot(columns, nuisance, axes=(2, 0))
+    channels, samples, count = j_shared.shape
+    own = j_per_channel.shape[2]
+    design = np.zeros((channels, samples, count + channels * own + len(nuisance)))
+    design[:, :, :count] = j_shared
+    for channel in range(channels):
+        design[channel, :, count + channel * own : count + (channel + 1) * own] = j_per_channel[channel]
+    design[:, :, count + channels * own :] = np.swapaxes(columns, 0, 1)
+    design = design.reshape(channels * samples, -1)
+    free = _inside(misfit.layout, shared, per_channel)
+    kept = np.r_[np.flatnonzero(free), np.arange(len(free), design.shape[1])]
+    design, right = design[:, kept], -np.ravel(left.T)
+    normal = design.T @ design
+    normal[np.diag_indices(len(normal))] += np.r_[np.zeros(int(free.sum())), weights]
+    aim = design.T @ right - np.r_[np.zeros(int(free.sum())), weights * nuisance]
+    covariance = covariance_of(normal, np.diag(normal))
+    return covariance @ aim, covariance, free
+
+
+def _inside(layout: Layout, shared, per_channel) -> np.ndarray:
+    """Which coordinates, shared ones first and then channel by channel, stand off their bounds."""
+    low, high = layout.bounds(layout.shared)
+    own_low, own_high = layout.bounds(layout.per_channel)
+    of_shared = (shared > low + 1e-9) & (shared < high - 1e-9)
+    of_channels = (per_channel > own_low + 1e-9) & (per_channel < own_high - 1e-9)
+    return np.r_[of_shared, np.ravel(of_channels)]
+
+
+def _moved(layout: Layout, shared, per_channel, step, free):
+    """The coordinates after a step, within their bounds."""
+    moved = np.zeros(len(free))
+    moved[free] = step
+    low, high = layout.bounds(layout.shared)
+    own_low, own_high = layout.bounds(layout.per_channel)
+    return (
+        np.clip(shared + moved[: len(shared)], low, high),
+        np.clip(per_channel + moved[len(shared) :].reshape(per_channel.shape), own_low, own_high),
+    )
+
+
+def _errors(layout: Layout, values: dict, variances, free) -> dict:
+    """Standard error of each free parameter in its own unit; 0 of one at a bound."""
+    spread = np.zeros(len(free))
+    spread[free] = variances
+    count = len(layout.shared)
+    per_channel = spread[count:].reshape(layout.channels, len(layout.per_channel))
+    return standard_errors.in_units(layout, values, spread[:count], per_channel)
+
+
+def explains(found: Adjusted, data: Prepared, residuals: np.ndarray) -> bool:
+    """Whether the instrument takes away what the model alone could not follow: chi² falls by far more than as many
+    numbers would by chance, no discrepancy is left, not even beside a few wild values, and nothing is larger than an
+    instrument drifts.
+
+    `residuals` ln(model/data) of the adjusted, where the best models settle.
+    """
+    drift = found.drift
+    count = len(drift.ln_gains) + 1
+    fallen = found.before - found.penalised
+    if fallen < count + SURE * np.sqrt(2 * count):
+        return False
+    if np.any(np.abs(drift.ln_gains) > LIKELY * GAIN) or abs(drift.zero_deg) > LIKELY * ZERO_DEG:
+        return False
+    widest = WILD * SIGMA_PER_MEDIAN * float(np.nanmedian(np.abs(residuals)))
+    return all(
+        standard_errors.discrepancy(each, *standard_errors.serial_correlation(each, data.orders)) is None
+        for each in (residuals, np.clip(residuals, -widest, widest))
+    )
+
+
+def instrument_finding(drift: Drift) -> Finding:
+    """What was found, in a sentence."""
+    spread = float(np.sqrt(np.mean((drift.ln_gains - drift.ln_gains.mean()) ** 2)))
+    text = (
+        f"the instrument, not the model: the scans' gains differ by {100 * spread:.2g} % (rms), and the detector's arm "
+        f"stands {drift.zero_deg:+.2f} ± {drift.zero_stderr_deg:.2f} degrees from its zero"
+    )
+    numbers = [("gains_rms", spread), ("zero_deg", drift.zero_deg), ("zero_stderr_deg", drift.zero_stderr_deg)]
+    for theta, gain, error in zip(drift.theta_i_deg, drift.ln_gains, drift.ln_gains_stderr, strict=True):
+        numbers += [(f"ln_gain_{theta:g}", float(gain)), (f"ln_gain_stderr_{theta:g}", float(error))]
+    consequence = "fitted beside every model, and held in their intervals; errors are told without it"
+    return Finding("instrument", text, "warning", consequence, numbers=tuple(numbers))
+
+
+def without_discrepancy(findings: Sequence[Finding]) -> tuple[Finding, ...]:
+    """The doubts about a model that stay once the instrument explains its misfit."""
+    return tuple(each for each in findings if each.effect is not Effect.OF_MISFIT)

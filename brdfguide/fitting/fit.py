@@ -1,0 +1,400 @@
+"""One model, one measurement, one fit; `fit_all` maps it over the candidates. Never compares models."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+
+import numpy as np
+
+from ..data.measurement import Measurement
+from ..errors import choices
+from ..finding import Finding
+from ..models import Composite
+from ..models.candidates import candidate_label
+from ..models.surface import Surface
+from ..numerics.least_squares import Minimum
+from . import drift, starting_grid, weights
+from .diagnostics import profile_intervals, sigma_bound, standard_errors, unnoticed_faults
+from .layout import Layout
+from .objective import METRICS, metric
+from .prepared import Prepared, Subset, expecting, few_channels, prepare
+from .residuals import ln_residuals, rms, rms_over_all
+
+WARM_UP_BUDGET = 8  # evaluations after which a start that lies far behind is followed no further
+GIVEN_FOLLOWED = 2  # of the starts that one is given, those that are followed beyond the warm-up
+OUTRUN = 1.5  # times the best rms: so far behind; such a model settles on SETTLE_SAMPLES
+PRUNED = 4.0  # times the best error beyond which a model is not refined
+LEAST_PRUNED = 0.5  # rms below which every model is refined
+ASKED_OF_DRIFT = 3  # of the best models, whose misfit may be the instrument's
+ROBUST_ROUNDS = 4
+
+
+@dataclass(frozen=True)
+class FitOptions:
+    """What a user may decide about a fit."""
+
+    metric: str = "ln"
+    close: str = "look"  # what may be taken in place of the best: look, none, or a percentage such as 1%
+    weights: str = "auto"  # auto, none, stderr, sampling
+    robust: bool = False
+    shape_per_channel: bool = False
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    start: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit:
+    """The surface that comes closest to a measurement, and the doubts about it."""
+
+    surface: Surface  # with a value for every parameter
+    stderr: dict  # of those that were free; infinite where the data say nothing
+    # ln(model/data), (samples, channels), NaN where no error is told; of a table larger than `COMPARED_SAMPLES` on
+    # `compared_rows` of it
+    residuals: np.ndarray
+    rms_ln: float
+    free: int  # how many numbers were fitted
+    evaluations: int
+    seconds: float
+    converged: bool
+    warnings: tuple[Finding, ...] = ()
+    instrument: drift.Drift | None = None  # fitted beside the model, and not in the residuals
+    missed: float | None = None  # relative error that was expected of bright values; None where that decides nothing
+
+    @property
+    def model(self) -> Composite:
+        return self.surface.model
+
+    @property
+    def values(self) -> Mapping:
+        return self.surface.values
+
+    @property
+    def name(self) -> str:
+        return candidate_label(self.model)
+
+    def __repr__(self) -> str:
+        doubts = f"; {', '.join(each.printed for each in self.warnings)}" if self.warnings else ""
+        return f"{self.name}: rms ln {self.rms_ln:.4f}, {self.free} numbers fitted{doubts}"
+
+    def residuals_on(self, measurement: Measurement) -> np.ndarray:
+        """`residuals` on all directions of the measurement that was fitted, or of a part of it."""
+        known = measurement if self.missed is None else expecting(measurement, self.missed)
+        found = self.instrument
+        return ln_residuals(self.surface, known if found is None else drift.without_drift(known, found))
+
+    def has(self, code: str, subject: str = "") -> bool:
+        """Whether there is a warning with this code, about this parameter."""
+        return any((warning.code, warning.subject) == (code, subject) for warning in self.warnings)
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """Where the starts of one model ended, on few directions and channels."""
+
+    layout: Layout
+    ends: list  # (shared, per_channel, rms), best first
+    evaluations: int
+    seconds: float
+
+    @property
+    def rms(self) -> float:
+        return self.ends[0][2]
+
+    @property
+    def values(self) -> dict:
+        """Where the best of them ended, in the few channels."""
+        shared, per_channel, _ = self.ends[0]
+        return replace(self.layout, channels=len(per_channel)).decode(shared, per_channel)
+
+
+def fit(model: Composite, measurement: Measurement | Prepared, options: FitOptions = FitOptions()) -> Fit:
+    """The values of `model` closest to a measurement, from the best two starts of a grid and from the user's own.
+
+    Raises InputError where nothing can be fitted.
+    """
+    data = measurement if isinstance(measurement, Prepared) else prepare(measurement, options.weights)
+    found = search(model, data, options)
+    data = data.expecting(found.rms)
+    fits = _over_all([settle(found, data, data.settle, options)], [True], data)
+    return _beside_the_instrument(fits, [found.layout], data, options)[0]
+
+
+def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOptions) -> Fit:
+    """The fit that a search leads to, on that part of the data; on none it stays where the search ended and says so."""
+    began, layout, pruned = perf_counter(), searched.layout, on is None
+    best, on, evaluations = _settled(searched, data, on, options)
+    surface = layout.surface(best.shared, best.per_channel, data.whole)
+    values, residuals = surface.values, ln_residuals(surface, data.compared)
+    part = _where_settled(data, residuals, surface)
+    correlation, score = standard_errors.serial_correlation(part, data.orders)
+    variance = best.cost / max(int(np.count_nonzero(on.measurement.weighed)) - layout.count, 1)
+    unlike = weights.unlike(on.measurement, data.sample_weights, data.used, on.rows, float(np.nanmean(part**2)))
+    if unlike is None:
+        variances = best.normal.variances(variance)
+    else:
+        variances = best.normal.scatter(np.sqrt(variance * unlike), *best.at_minimum[1:])
+    stderr = standard_errors.standard_errors(layout, values, *variances, part, correlation)
+    wrong = standard_errors.discrepancy(part, correlation, score)
+    if wrong and not pruned:
+        wide = standard_errors.errors_of_a_wrong_model(
+            layout, values, best.normal, best.at_minimum, [each[on.rows] for each in data.blocks]
+        )
+        stderr = {key: np.maximum(error, wide[key]) for key, error in stderr.items()}
+    stderr = unnoticed_faults.with_faults(layout, values, stderr, best, on.misfit(layout, metric(options.metric)))
+    together = variance * standard_errors.serial_widening(correlation) * standard_errors.common_channels(part)
+    warnings = list(standard_errors.parameter_doubts(layout, values, stderr, best.normal, together))
+    warnings += [wrong] if wrong and standard_errors.worth_telling(wrong) else []
+    warnings += [warning for warning in (_disagreement(layout, searched.ends),) if warning]
+    slopes_alone = sigma_bound.rough_regime_doubts(
+        layout, on.measurement, best.shared, best.per_channel, together, stderr
+    )
+    warnings = sigma_bound.in_place_of(warnings, slopes_alone)
+    if not wrong and not pruned:
+        warnings += profile_intervals.curved_doubts(
+            layout, on.misfit(layout, metric(options.metric)), best, values, stderr
+        )
+    if pruned:
+        text = f"its error is more than {PRUNED:g} times the best: searched for, not refined"
+        warnings.append(Finding("coarse", text, "note"))
+    if not best.converged:
+        text = "the search was still moving when it was stopped"
+        warnings.append(Finding("not-converged", text, "warning", "do not use the values"))
+    return Fit(
+        surface,
+        stderr,
+        residuals,
+        rms(residuals, data.compared_weights),
+        layout.count,
+        evaluations,
+        searched.seconds + perf_counter() - began,
+        best.converged,
+        tuple(warnings),
+        missed=data.missed,
+    )
+
+
+def _where_settled(
+    data: Prepared, residuals: np.ndarray, surface: Surface, found: drift.Drift | None = None
+) -> np.ndarray:
+    """Residuals, known where models are compared, on the directions on which the best settle."""
+    if data.compared is data.whole:
+        return residuals[data.used]
+    few = data.settle.measurement
+    return ln_residuals(surface, few if found is None else drift.without_drift(few, found))
+
+
+def _settled(searched: Search, data: Prepared, on: Subset | None, options: FitOptions) -> tuple[Minimum, Subset, int]:
+    """The minimum on that part of the data, the part with its last weights, and all evaluations so far."""
+    scale, layout, evaluations = metric(options.metric), searched.layout, searched.evaluations
+    shared, per_channel, _ = searched.ends[0]
+    start = shared, _spread_over_channels(per_channel, layout.channels)
+    if on is None or len(data.near.weights) < len(data.settle.weights):
+        best = data.near.misfit(layout, scale).descend(start, 1e-5)
+        start, evaluations = (best.shared, best.per_channel), evaluations + best.evaluations
+    if on is None:
+        return best, data.near, evaluations
+    for turn in range(ROBUST_ROUNDS if options.robust else 1):
+        if turn:
+            on = replace(on, weights=weights.robust(on.weights, best.at_minimum[0], on.measurement))
+        best = on.misfit(layout, scale).descend(start, 1e-6)
+        start, evaluations = (best.shared, best.per_channel), evaluations + best.evaluations
+    return best, on, evaluations
+
+
+def fit_all(
+    models: Iterable[Composite],
+    measurement: Measurement,
+    options: FitOptions = FitOptions(),
+    progress: Callable[[str], None] = lambda name: None,
+    more: "Callable[[list[Search], Prepared], list[Search]]" = lambda searches, data: [],
+) -> tuple[Fit, ...]:
+    """One fit for each model, and for those that `more` searched after them; `progress` hears each name before its fit
+    begins.
+
+    Raises InputError where a fixed or start value names no parameter of any of them.
+    """
+    models = tuple(models)
+    for name in (*options.fixed, *options.start):
+        if not any(model.has(name) for model in models):
+            raise choices(
+                "parameter of any candidate", name, sorted({key for model in models for key in model.parameters})
+            )
+    data = prepare(measurement, options.weights)
+    searches = []
+    for model in models:
+        progress(f"searching {candidate_label(model)}")
+        searches.append(search(model, data, options))
+    if data.missed is not None:  # how well the best does says which values are too dim to tell
+        data = data.expecting(_best(searches))
+        searches = [followed_on(each, data, options) for each in searches]
+    searches += more(searches, data)
+    best, fits = _best(searches), []
+    data = data.expecting(best)
+    for each in searches:
+        progress(f"fitting {candidate_label(each.layout.model)}")
+        on = data.fewer if each.rms > OUTRUN * best else data.settle
+        pruned = each.rms > max(PRUNED * best, LEAST_PRUNED)
+        fits.append(settle(each, data, None if pruned else on, options))
+    fits = _over_all(fits, [each.rms <= OUTRUN * best for each in searches], data)
+    return tuple(_beside_the_instrument(fits, [each.layout for each in searches], data, options))
+
+
+def _best(searches: Iterable[Search]) -> float:
+    """The least error of any."""
+    return min((each.rms for each in searches), default=0.0)
+
+
+def _over_all(fits: list[Fit], near: list[bool], data: Prepared) -> list[Fit]:
+    """The same with the error of those that are near the best over a whole table, not only where it is compared."""
+    if data.compared is data.whole:
+        return fits
+    places = [place for place, each in enumerate(near) if each]
+    errors = rms_over_all([fits[place].surface for place in places], data.whole, data.sample_weights)
+    known = dict(zip(places, errors, strict=True))
+    return [replace(each, rms_ln=known.get(place, each.rms_ln)) for place, each in enumerate(fits)]
+
+
+def _beside_the_instrument(fits: list[Fit], layouts: list[Layout], data: Prepared, options: FitOptions) -> list[Fit]:
+    """The same with gains of scans and the zero of the arm fitted beside every refined model, where they explain what
+    the best of them misses."""
+    if options.robust or metric(options.metric) is not METRICS["ln"]:
+        return fits
+    refined = [place for place, each in enumerate(fits) if not each.has("coarse")]
+    nearest = sorted(refined, key=lambda place: fits[place].rms_ln)[:ASKED_OF_DRIFT]
+
+    def adjusted(place: int) -> drift.Adjusted | None:
+        left = _where_settled(data, fits[place].residuals, fits[place].surface)
+        return drift.adjusted(layouts[place], fits[place].values, data, left)
+
+    found = {place: adjusted(place) for place in nearest}
+    known = {place: each for place, each in found.items() if each is not None}
+    if not known:
+        return fits
+    best = min(known, key=lambda place: known[place].penalised * known[place].variance)
+    if not drift.explains(known[best], data, _adjusted_residuals(fits[best], known[best], data)[1]):
+        return fits
+    known |= {place: each for place in refined if place not in found and (each := adjusted(place)) is not None}
+    return [_adjusted(each, known[place], data) if place in known else each for place, each in enumerate(fits)]
+
+
+def _adjusted_residuals(one: Fit, found: drift.Adjusted, data: Prepared) -> tuple[np.ndarray, np.ndarray]:
+    """Where models are compared, and where they settle."""
+    surface = replace(one.surface, values=found.values)
+    residuals = ln_residuals(surface, drift.without_drift(data.compared, found.drift))
+    return residuals, _where_settled(data, residuals, surface, found.drift)
+
+
+def _adjusted(one: Fit, found: drift.Adjusted, data: Prepared) -> Fit:
+    """A fit with what was fitted beside it; its errors are without what the instrument did."""
+    residuals, part = _adjusted_residuals(one, found, data)
+    correlation, score = standard_errors.serial_correlation(part, data.orders)
+    wrong = standard_errors.discrepancy(part, correlation, score)
+    widening = np.sqrt(standard_errors.serial_widening(correlation))
+    stderr = {key: widening * error for key, error in found.stderr.items()}
+    if wrong:
+        stderr = {key: np.maximum(error, one.stderr[key]) for key, error in stderr.items()}
+    doubts = [wrong] if wrong else [drift.instrument_finding(found.drift)]
+    return replace(
+        one,
+        surface=replace(one.surface, values=found.values),
+        stderr=stderr,
+        residuals=residuals,
+        rms_ln=rms(residuals, data.compared_weights),
+        warnings=(*drift.without_discrepancy(one.warnings), *doubts),
+        instrument=found.drift,
+    )
+
+
+def _with_options(model: Composite, options: FitOptions) -> Composite:
+    """The sum with those of the user's fixed and start values that it has; `fit_all` refuses a name that none has."""
+    fixed, start = _its(model, options.fixed), _its(model, options.start)
+    free = tuple(key for key in model.free if key not in fixed)
+    return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
+
+
+def free_count(model: Composite, channels: int, options: FitOptions) -> int:
+    """How many numbers a fit of the sum searches for."""
+    return Layout(_with_options(model, options), channels, options.shape_per_channel).count
+
+
+def _its(model: Composite, wanted: Mapping[str, float]) -> dict[str, float]:
+    """Those of the user's values that belong to a parameter of this sum, by their full names."""
+    return model.qualified({name: value for name, value in wanted.items() if model.has(name)})
+
+
+@dataclass(frozen=True)
+class Given:
+    """Where to begin in place of a grid, and for how long to go on."""
+
+    starts: tuple[Mapping, ...] = ()  # in the few channels; none: the grid all the same
+    levels: bool = True  # whether their amplitudes are to be solved for
+    worth: float = np.inf  # rms that one has to reach in the warm-up to be followed further
+
+
+def search(model: Composite, data: Prepared, options: FitOptions, given: Given = Given()) -> Search:
+    """Follows the starts of a grid, or those given, and the user's, on few directions and channels."""
+    began = perf_counter()
+    few = data.search.measurement
+    layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
+    narrow = replace(layout, channels=few.brdf.shape[1]).walking()
+    misfit = data.search.misfit(narrow, metric(options.metric))
+    starts = [
+        starting_grid.amplitudes_by_channel(narrow, few, dict(start)) if given.levels else dict(start)
+        for start in given.starts
+    ] or starting_grid.grid_starts(narrow, few)
+    if users := _its(model, options.start):  # the rest as in the grid's best
+        starts.append({**starting_grid.amplitudes_by_channel(narrow, few, {**starts[0], **users}), **users})
+    ahead = [misfit.descend(narrow.encode(start), 1e-5, WARM_UP_BUDGET) for start in starts]
+    evaluations, count = sum(end.evaluations for end in ahead), max(int(np.count_nonzero(few.weighed)), 1)
+    ahead = sorted(ahead, key=lambda end: end.cost)[: GIVEN_FOLLOWED if given.starts else None]
+    most = min(OUTRUN**2 * ahead[0].cost, given.worth**2 * count)
+    ends = []
+    for end in ahead:
+        if not end.converged and end.cost <= most:
+            end = misfit.descend((end.shared, end.per_channel), 1e-5, 100)
+            evaluations += end.evaluations
+        at = end.shared, end.per_channel
+        if narrow.walks:
+            at = narrow.standing().encode(narrow.decode(*at))
+        ends.append((*narrow.in_order(*at), float(np.sqrt(end.cost / count))))
+    return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
+
+
+def followed_on(searched: Search, data: Prepared, options: FitOptions) -> Search:
+    """A search that goes on from where it ended, on values that count otherwise than when it began."""
+    began, few = perf_counter(), data.search.measurement
+    narrow = replace(searched.layout, channels=few.brdf.shape[1])
+    misfit = data.search.misfit(narrow, metric(options.metric))
+    count = max(int(np.count_nonzero(few.weighed)), 1)
+    found = [misfit.descend((shared, per_channel), 1e-5, 100) for shared, per_channel, _ in searched.ends]
+    ends = [
+        (*narrow.in_order(end.shared, end.per_channel), float(np.sqrt(end.cost / count)))
+        for end in sorted(found, key=lambda end: end.cost)
+    ]
+    evaluations = searched.evaluations + sum(end.evaluations for end in found)
+    return Search(searched.layout, ends, evaluations, searched.seconds + perf_counter() - began)
+
+
+def _spread_over_channels(per_channel, channels: int):
+    """Own coordinates of a few channels, interpolated to all."""
+    if not per_channel.shape[1]:
+        return np.zeros((channels, 0))
+    at = few_channels(channels)
+    return np.stack([np.interp(np.arange(channels), at, column) for column in per_channel.T], axis=1)
+
+
+def _disagreement(layout: Layout, ends) -> Finding | None:
+    """Two starts that ended equally well in different places."""
+    if len(ends) < 2:
+        return None
+    (best, _, error), (other, _, worse) = ends[:2]
+    if worse > 1.02 * error + 1e-6 or np.max(np.abs(best - other), initial=0.0) < 0.1:
+        return None
+    per_channel = np.zeros((layout.channels, len(layout.per_channel)))
+    ends_at = [layout.decode(shared, per_channel) for shared in (best, other)]
+    one, two = (
+        ", ".join(f"{key} {layout.parameters[key].outside(values[key]):.3g}" for key in layout.shared)
+        for values in ends_at
+    )
+    text = f"two starts ended equally well in different places: {one}; or {two}"
+    return Finding("starts-disagree", text, "warning", "look at both")

@@ -1,0 +1,212 @@
+"""Candidates that grow from what the best so far leaves: one thing more at a time, until angles it has not seen say
+that it is no better.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..data.measurement import Measurement
+from ..models.candidates import candidate_label, containing
+from ..models.extensions import Extension, extensions
+from ..models.surface import Surface
+from ..physics.geometry import Geometry
+from . import cross_validation
+from . import fit as fitting
+from .diagnostics import standard_errors
+from .fit import FitOptions, Given, Prepared, Search
+from .ranked import BETTER, Step, Tried
+from .residuals import ln_residuals, rms
+
+MOST_STEPS = 4
+ALIKE = 1.03  # times the least held-out error up to which the simpler step is taken
+VALUES_EACH = 3  # for each free number, the least with which one grows
+FOLLOWED = 3  # candidates of a step whose held-out error is formed
+PEAK, SHOULDER = 0.5, 0.05  # of the value in the mirror direction, down to which a lobe has its peak and its shoulder
+LOW_DEG, HIGH_DEG = 30.0, 60.0  # incidence
+TOWARD_LIGHT_DEG = 15.0
+NOISE = "what it leaves is noise"
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """A candidate that may grow, and its error at angles left out."""
+
+    search: Search
+    held_out: float
+
+    @property
+    def name(self) -> str:
+        return candidate_label(self.search.layout.model)
+
+
+def grow(
+    searches: list[Search],
+    data: Prepared,
+    options: FitOptions,
+    kind: str | None,
+    progress: Callable[[str], None] = lambda name: None,
+) -> tuple[list[Search], tuple[Step, ...]]:
+    """What grew from the best of `searches`, for a surface of this kind (None: not known), and the steps.
+
+    Nothing grows where no candidate can, where there is one incidence only, or where what the best leaves is noise.
+    """
+    known = {candidate_label(each.layout.model): each for each in searches}
+    used, root = cross_validation.thinned(data.whole), _root(searches, data)
+    if not root or not cross_validation.can_hold_out(used):
+        return [], ()
+    shown, steps = _shown(root, data), list[Step]()
+    if not shown:
+        return [], (Step(candidate_label(root.layout.model), root.rms, None, shown, because=NOISE),)
+    held = cross_validation.held_out_from(root.layout.model, root.values, used, options)
+    assert held is not None
+    state, taken = State(root, held.rms_ln), list[Search]()
+    while len(steps) < MOST_STEPS:
+        shown = shown if state.search is root else _shown(state.search, data)
+        step = Step(state.name, state.search.rms, state.held_out, shown)
+        if not shown:
+            steps.append(replace(step, because=NOISE))
+            break
+        progress(f"growing {state.name}")
+        tried = _tried(state, data, options, kind, known)
+        further, step = _chosen(state, step, tried, used, options)
+        steps.append(step)
+        if not further:
+            break
+        taken += [each.search for each in further]
+        state = further[-1]
+    return [each for each in taken if all(each is not other for other in searches)], tuple(steps)
+
+
+def _root(searches: Iterable[Search], data: Prepared) -> Search | None:
+    """The best of the simplest that can grow: one lobe, of a law that is a case of another, on a body that has no other
+    for a case. Judged on more directions than it was searched on, among which those near the mirror direction abound.
+    """
+    return min(filter(_can_grow, searches), key=lambda each: rms(_residuals(each, data)[1]), default=None)
+
+
+def _can_grow(search: Search) -> bool:
+    terms = search.layout.model.terms
+    lobes = [term.model for term in terms if term.model.is_lobe]
+    plain = not any(term.model.candidacy and term.model.candidacy.contains for term in terms)
+    return plain and len(lobes) == 1 and bool(containing(lobes[0]))
+
+
+def _tried(
+    state: State, data: Prepared, options: FitOptions, kind: str | None, known: dict[str, Search]
+) -> list[tuple[Extension, Search]]:
+    """Every extension of a candidate, followed on few directions; best first."""
+    tried = []
+    values, channels = int(np.count_nonzero(data.whole.usable)), data.whole.brdf.shape[1]
+    for each in extensions(state.search.layout.model, state.search.values, kind):
+        name = candidate_label(each.model)
+        if VALUES_EACH * fitting.free_count(each.model, channels, options) > values:
+            continue
+        if name not in known:
+            known[name] = fitting.search(each.model, data, options, Given(each.starts, each.levels, state.search.rms))
+        tried.append((each, known[name]))
+    return sorted(tried, key=lambda each: each[1].rms)
+
+
+def _chosen(
+    state: State, step: Step, tried: list[tuple[Extension, Search]], used: Measurement, options: FitOptions
+) -> tuple[list[State], Step]:
+    """The step to take last, the simplest of those that hold out about as well as the best; before it the others that
+    are better than what there is, which are ranked beside it; nothing where none is.
+    """
+    better = [each for each in tried if each[1].rms < BETTER * state.search.rms][:FOLLOWED]
+    held = {}
+    for extension, search in better:
+        found = cross_validation.held_out_from(extension.model, search.values, used, options)
+        held[id(search)] = found.rms_ln if found else np.inf
+    rows = tuple(
+        Tried(candidate_label(extension.model), extension.adds, search.rms, held.get(id(search)))
+        for extension, search in tried
+    )
+    step = replace(step, tried=rows)
+    least = min(held.values(), default=np.inf)
+    if not least < BETTER * state.held_out:
+        return [], replace(step, because=_stopped(state, better, least))
+    near = [search for _, search in better if held[id(search)] <= ALIKE * least]
+    pick = min(near, key=lambda each: (each.layout.count, each.rms))
+    taken = State(pick, held[id(pick)])
+    because = (
+        f"at angles left out it is {_off(taken.held_out)} in place of {_off(state.held_out)}, at all "
+        f"{_off(pick.rms)} in place of {_off(state.search.rms)}"
+    )
+    others = [
+        State(each, held[id(each)])
+        for _, each in better
+        if each is not pick and held[id(each)] < BETTER * state.held_out
+    ]
+    return [*others, taken], replace(step, taken=taken.name, because=because)
+
+
+def _stopped(state: State, better: list, least: float) -> str:
+    if not better:
+        return f"nothing is closer to the data by {100 * (1 - BETTER):.0f} % of its error or more"
+    return (
+        f"{candidate_label(better[0][0].model)} is closer, {_off(better[0][1].rms)} in place of "
+        f"{_off(state.search.rms)}, but nothing is at angles left out: {_off(least)} in place of {_off(state.held_out)}"
+    )
+
+
+def _off(rms_ln: float) -> str:
+    """A typical error in words."""
+    return f"{100 * np.expm1(rms_ln):.2g} % off"
+
+
+def _shown(search: Search, data: Prepared) -> str:
+    """What the residuals of a candidate show, where they are larger and more alike than noise leaves them; "" where
+    they are not.
+    """
+    surface, residuals = _residuals(search, data)
+    few = _few(data)
+    correlation, score = standard_errors.serial_correlation(residuals, standard_errors.orderings(few))
+    if not standard_errors.discrepancy(residuals, correlation, score):
+        return ""
+    known = np.isfinite(residuals)
+    mean = np.where(known, residuals, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
+    peak = surface.brdf(_in_mirror_direction(few.geom)).mean(axis=1)
+    share = surface.brdf(few.geom).mean(axis=1) / np.maximum(peak, 1e-300)
+    theta, away = few.geom.theta_i_deg[:, 0], np.degrees(np.arccos(np.clip(_cos_between(few.geom), -1, 1)))
+    zones = {
+        "its peak near the normal": (share > PEAK) & (theta < LOW_DEG),
+        "its peak at middle incidence": (share > PEAK) & (theta >= LOW_DEG) & (theta < HIGH_DEG),
+        "its peak toward grazing": (share > PEAK) & (theta >= HIGH_DEG),
+        "the shoulder of its lobe": (share > SHOULDER) & (share <= PEAK),
+        "what lies far from its lobe": (share <= SHOULDER) & (away >= TOWARD_LIGHT_DEG),
+        "what it sends back toward the light": (share <= PEAK) & (away < TOWARD_LIGHT_DEG),
+    }
+    means = {name: (float(np.mean(mean[rows])), np.count_nonzero(rows)) for name, rows in zones.items() if rows.any()}
+    name, (size, _) = max(means.items(), key=lambda each: each[1][0] ** 2 * np.sqrt(each[1][1]))
+    return f"{name} is {_percent(size)}"
+
+
+def _residuals(search: Search, data: Prepared) -> tuple[Surface, np.ndarray]:
+    """Where a search ended, and ln(model/data) of it at `_few` directions."""
+    few = _few(data)
+    layout = replace(search.layout, channels=few.brdf.shape[1])
+    surface = layout.surface(*layout.encode(search.values), few)
+    return surface, ln_residuals(surface, few)
+
+
+def _few(data: Prepared) -> Measurement:
+    return data.near.measurement.of_channels(fitting.few_channels(data.whole.brdf.shape[1]))
+
+
+def _percent(ln_ratio: float) -> str:
+    """A ratio of model to data in words."""
+    if ln_ratio > np.log(2):
+        return f"{np.exp(ln_ratio):.2g} times too bright"
+    return f"{100 * abs(np.expm1(ln_ratio)):.2g} % too {'bright' if ln_ratio > 0 else 'dark'}"
+
+
+def _in_mirror_direction(geom: Geometry) -> Geometry:
+    return Geometry.from_degrees(geom.theta_i_deg, 0.0, geom.theta_i_deg, 180.0, geom.wavelength)
+
+
+def _cos_between(geom: Geometry) -> np.ndarray:
+    """Cosine of the angle between light and detector, (samples,)."""
+    return (geom.dot_xy + geom.cos_cos)[:, 0]

@@ -1,0 +1,89 @@
+"""What is known of a surface besides the error of fits: of several that the data leave equal, which it rules out."""
+
+from collections.abc import Sequence
+from math import isfinite, log
+
+from ..flags import Effect
+from ..models import Model
+from .ranked import BETTER, Row
+
+MOST_NAMED = 3  # in an aside
+NEAR_GROWTH = log(1.5)  # |ln| of a model's rise in the mirror direction over the data's, up to which it is near (ours)
+FAR_GROWTH = log(2.5)  # the same, from which on it is far (ours)
+
+
+def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Row], str]:
+    """Those of `rows` that may be recommended, and an aside on the others; never none.
+
+    After the verdict "dielectric" a lobe has Fresnel's factor; none whose rise toward grazing is far from the data's
+    while another's is near; none at a bound while another is inside; where the kind is not known, none of the other
+    kind than the best.
+    """
+    aside = ""
+    if kind == "dielectric":
+        rows, aside = _sifted(rows, _has_fresnel, aside, "no Fresnel factor, which a dielectric's lobe has")
+    elif kind is None:
+        rows, aside = _sifted(
+            rows,
+            lambda row: is_metal(row) == is_metal(best),
+            aside,
+            "another kind of surface, which these data leave open",
+        )
+    rows, aside = _sifted(rows, _inside, aside, "a parameter at its bound")
+    if any(growth_error(row) <= NEAR_GROWTH for row in rows):
+        rows, aside = _sifted(
+            rows, lambda row: growth_error(row) < FAR_GROWTH, aside, "another rise toward grazing than the data"
+        )
+    return list(rows), aside
+
+
+def foreseeing(rows: Sequence[Row]) -> tuple[list[Row], str]:
+    """Those of `rows` that err at angles left out no more than the least of them, or whose misfit is noise, and an
+    aside on the others; never none."""
+    least = min((row.held_out.rms_ln for row in rows if row.held_out), default=0.0)
+
+    def foresees(row: Row) -> bool:
+        off = any(each.effect is Effect.OF_MISFIT for each in row.fit.warnings)
+        return not (off and row.held_out and least < BETTER * row.held_out.rms_ln)
+
+    kept, aside = _sifted(rows, foresees, "", "more error at angles left out")
+    return list(kept), aside
+
+
+def growth_error(row: Row) -> float:
+    """|ln| of its rise in the mirror direction over the data's; 0 where that was not measured."""
+    if row.growth is None:
+        return 0.0
+    pairs = [(row.growth["r_mirror"], row.growth["r_mirror_data"])]
+    known = [abs(log(one / other)) for one, other in pairs if isfinite(one) and isfinite(other) and min(one, other) > 0]
+    return max(known, default=0.0)
+
+
+def is_metal(row: Row) -> bool:
+    """Whether it is a metal's lobe without a body: k is what was fitted."""
+    bodies = any(term.model.is_body for term in row.fit.model.terms)
+    return not bodies and any(key.endswith(".k") for key in row.fit.model.free)
+
+
+def _inside(row: Row) -> bool:
+    return not any(each.effect is Effect.AT_BOUND for each in row.fit.warnings)
+
+
+def _has_fresnel(row: Row) -> bool:
+    lobes = [term.model for term in row.fit.model.terms if term.model.is_lobe and not _beside(term.model)]
+    return all(model.has_index or model.base for model in lobes)
+
+
+def _beside(law: Model) -> bool:
+    """Whether a lobe only stands beside that of the surface, as light sent back does."""
+    return law.candidacy is not None and law.candidacy.grown == "beside"
+
+
+def _sifted(rows: Sequence[Row], good, aside: str, has: str) -> tuple[Sequence[Row], str]:
+    """Those that are good, unless none is, and an aside on the rest."""
+    kept, rest = [row for row in rows if good(row)], [row for row in rows if not good(row)]
+    if not kept or not rest:
+        return rows, aside
+    names = [row.fit.name for row in rest]
+    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+    return kept, f"{aside}; {', '.join(names[:MOST_NAMED])}{more} {'has' if len(rest) == 1 else 'have'} {has}"

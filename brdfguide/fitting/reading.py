@@ -1,0 +1,119 @@
+"""What an instrument reads of a surface: the mean over its aperture, and the mirror beam that falls into it.
+
+    f = Σ w brdf(r_w) + ρ(θi)/(cos θi Ω) where the mirror direction lies in the detector's cone Ω
+
+The only place that says it, so that fits, residuals, curves and reports cannot differ. A point reads no mirror beam.
+"""
+
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from ..models.model import Parameter
+from ..models.surface import Surface
+from ..physics.aperture import Instrument
+from ..physics.geometry import Geometry
+from .layout import Layout, from_coordinate, slope_of_coordinate, to_coordinate
+
+LARGE = 32_768  # directions beyond which blocks and threads pay
+THREADS = 2
+STEP = 1e-5  # of a coordinate, for central differences
+
+
+def reading(surface: Surface, instrument: Instrument) -> np.ndarray:
+    """BRDF [1/sr] as the detector reports it, (samples, channels); 0 below the horizon."""
+    if instrument.solid_angle is None:
+        return evaluate(surface, instrument.geom)
+    total = np.zeros((len(instrument.geom), len(surface.channels)))
+    for weight, geom in instrument.views:
+        total += weight * evaluate(surface, geom)
+    return total + surface.mirror(instrument.geom) * instrument.beam if surface.model.has_mirror else total
+
+
+def with_slopes(layout: Layout, surface: Surface, instrument: Instrument) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """`reading`, and its derivative with respect to each free coordinate; the mirror beam's by central differences."""
+    total, slopes = _with_slopes(layout, surface, instrument)
+    return total, layout.walked(slopes, surface.values)
+
+
+def _with_slopes(layout: Layout, surface: Surface, instrument: Instrument) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The same by the coordinate of each parameter by itself."""
+    if instrument.solid_angle is None:
+        return _finite_with_slopes(layout, surface, instrument.geom)
+    total = np.zeros((len(instrument.geom), len(surface.channels)))
+    slopes = {key: np.zeros_like(total) for key in layout.parameters}
+    for weight, geom in instrument.views:
+        part, part_slopes = _finite_with_slopes(layout, surface, geom)
+        total += weight * part
+        for key, slope in part_slopes.items():
+            slopes[key] += weight * slope
+    if not surface.model.has_mirror:
+        return total, slopes
+    total += surface.mirror(instrument.geom) * instrument.beam
+    for key, parameter in layout.parameters.items():
+        at = to_coordinate(parameter, np.asarray(surface.values[key], float))
+        ends = (surface.with_value(key, from_coordinate(parameter, at + step)) for step in (STEP, -STEP))
+        above, below = (end.mirror(instrument.geom) for end in ends)
+        slopes[key] += (above - below) / (2 * STEP) * instrument.beam
+    return total, slopes
+
+
+def evaluate(surface: Surface, geom: Geometry) -> np.ndarray:
+    """The finite part (samples, channels), in blocks that fit the cache; two threads for a large table."""
+    geom, values = geom.at(surface.wavelength), _channels_first(surface.values)
+    shape = len(geom), len(surface.channels)
+    if len(geom) <= LARGE:
+        return np.broadcast_to(surface.model(geom.channels_first, values).T, shape)
+    out = np.empty(shape)
+
+    def fill(block) -> None:
+        rows, part = block
+        out[rows] = surface.model(part.channels_first, values).T
+
+    with ThreadPoolExecutor(THREADS) as pool:
+        list(pool.map(fill, geom.blocks()))
+    return out
+
+
+def _finite_with_slopes(layout: Layout, surface: Surface, geom: Geometry) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The finite part and its derivative with respect to each free coordinate, amplitudes taken out of the laws.
+
+    A law without an analytic gradient is differenced centrally in the coordinate of its parameter.
+    """
+    total: np.ndarray | float = 0.0
+    slopes: dict[str, np.ndarray] = {}
+    geom, values = geom.at(surface.wavelength).channels_first, _channels_first(surface.values)
+    for model, keys, free in layout.by_term:
+        of_term = {name: values[key] for name, key in keys.items()}
+        amplitude = model.amplitude
+        height = of_term.get(amplitude, 1.0)
+        unit = {**of_term, amplitude: 1.0} if amplitude else of_term
+        wanted = [name for name in free if name != amplitude]
+        known = model.gradient(geom, wanted, **unit) if model.gradient and wanted else {}
+        shape = known[amplitude] if amplitude in known else model(geom, **unit)
+        total = total + height * shape
+        slopes_of_term = {amplitude: shape} if amplitude in free else {}
+        for name in wanted:
+            parameter = model.parameter(name)
+            if name in known:
+                slopes_of_term[name] = known[name] * (slope_of_coordinate(parameter, of_term[name]) * height)
+            else:
+                slopes_of_term[name] = height * _difference(model, geom, unit, parameter)
+        for name, slope in slopes_of_term.items():  # a parameter that terms share has a slope through each of them
+            slopes[keys[name]] = slopes[keys[name]] + slope if keys[name] in slopes else slope
+    return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
+
+
+def _channels_first(values: Mapping) -> dict:
+    """Values of each channel (channels,) as (channels, 1), to go with `Geometry.channels_first`."""
+    return {key: np.reshape(value, (-1, 1)) if np.ndim(value) else value for key, value in values.items()}
+
+
+def _difference(model, geom: Geometry, values: dict, parameter: Parameter):
+    """Central difference in the coordinate, one-sided at a bound."""
+    at = to_coordinate(parameter, np.asarray(values[parameter.name], float))
+    low, high = to_coordinate(parameter, parameter.low), to_coordinate(parameter, parameter.high)
+    above, below = np.minimum(at + STEP, high), np.maximum(at - STEP, low)
+    ends = [model(geom, **{**values, parameter.name: from_coordinate(parameter, end)}) for end in (above, below)]
+    return (ends[0] - ends[1]) / (above - below)

@@ -1,0 +1,216 @@
+"""Where to begin a fit: every shape of a grid, with the amplitudes that suit it best.
+
+Amplitudes enter linearly, so each shape needs one small non-negative least-squares problem instead of a search.
+"""
+
+from itertools import product
+
+import numpy as np
+
+from ..data.lobe_ellipse import lobe_ellipse
+from ..data.measurement import Measurement
+from ..data.turning import turn_of_each
+from ..formed import formed
+from ..models import Composite
+from ..numerics.nonnegative import non_negative
+from .layout import Layout
+from .objective import SMALLEST
+
+GRID_SAMPLES = 160  # directions on which the grid is judged
+MOST_SHAPES = 20_000  # of a sum; beyond, the finer axes are thinned
+FAINTEST = 1e-12  # of the largest value: what is darker decides nothing about where to begin
+STREAK = 4.5  # length over width, exp(1.5), with which a grain is looked for along each of STREAKS [rad]
+STREAKS = (0.0, 0.25 * np.pi, 0.5 * np.pi, 0.75 * np.pi)
+SPREAD = 6  # values along a parameter that names no starts of its own
+
+
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # values far from any reflectance
+def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> list[dict]:
+    """The best `count` starts that lie apart on the grid, best first, and that of the brightest parts; values as in
+    `Fit.values`.
+
+    Judged by the rms of ln(model/data) over a few hundred well-spread directions, all channels averaged, and by cube
+    roots.
+    """
+    few, geom, data = _judged(measurement)
+    axes, bases = zip(*(_term_grid(layout, term, geom) for term in layout.model.terms), strict=True)
+    shapes = [shape for shape in product(*(range(len(axis)) for axis in axes)) if _in_order(layout, shape)]
+    if len(shapes) > MOST_SHAPES:
+        shapes = shapes[:: len(shapes) // MOST_SHAPES + 1]
+    places = np.array(shapes)
+    columns = np.stack([basis[places[:, term]] for term, basis in enumerate(bases)], axis=2)  # (shapes, samples, terms)
+    fixed, limits = _fixed_and_limits(layout)
+    amplitudes = non_negative(columns / data[:, None], fixed, limits)
+    model = np.einsum("gst,gt->gs", columns, amplitudes)
+    error = np.sqrt(np.mean(np.log(np.maximum(model, SMALLEST) / data) ** 2, axis=1))
+    picked: list[int] = []
+    for candidate in np.argsort(error, kind="stable"):
+        if all(
+            np.sum(places[candidate] != places[other]) and _apart(places[candidate], places[other], axes)
+            for other in picked
+        ):
+            picked.append(int(candidate))
+        if len(picked) == count:
+            break
+    # a narrow lobe without a body falls by decades: every wrong width is far off in ln, and its peak finds it better
+    brightest = int(np.argmin(np.sum((np.cbrt(model) - np.cbrt(data)) ** 2, axis=1)))
+    if all(_apart(places[brightest], places[other], axes) for other in picked):
+        picked.append(brightest)
+    starts = [_values(layout.model, axes, places[each], amplitudes[each]) for each in picked]
+    starts += [{**starts[0], **grained} for grained in _grains(layout, measurement, starts[0])]
+    return [amplitudes_by_channel(layout, few, start) for start in starts]
+
+
+def _grains(layout: Layout, measurement: Measurement, best: dict) -> list[dict]:
+    """Widths and axis of each grain that is searched for: those of the lobe's own ellipse, and a streak along each of
+    four axes."""
+    ellipse, found = lobe_ellipse(measurement), []
+    for grain, keys in layout.grains if layout.walks else ():
+        wide, narrow = grain.widths(*(float(np.mean(best[key])) for key in keys[:2]))
+        shapes = [(np.sqrt(wide * narrow), STREAK, axis) for axis in STREAKS]
+        if ellipse is not None:
+            shapes.insert(0, (np.sqrt(ellipse.alpha_x * ellipse.alpha_y), ellipse.ratio, ellipse.axis))
+        for alpha, ratio, axis in shapes:
+            widths = grain.values(alpha * ratio**0.5, alpha * ratio**-0.5)
+            inside = [
+                float(np.clip(value, layout.parameters[key].low, layout.parameters[key].high))
+                for key, value in zip(keys, widths, strict=False)
+            ]
+            found.append(dict(zip(keys, (*inside, axis), strict=True)))
+    return found
+
+
+@formed
+def _judged(measurement: Measurement):
+    """Few of the directions: all channels, and the directions and values of the mean channel."""
+    few = measurement[spread_rows(measurement, GRID_SAMPLES)]
+    data, usable = _channel_mean(few)
+    data, geom = data[usable], few.geom.at(np.atleast_1d(np.mean(few.geom.wavelength)))[usable]
+    return few, geom, np.maximum(data, FAINTEST * np.max(data))
+
+
+def amplitudes_by_channel(layout: Layout, measurement: Measurement, values: dict) -> dict:
+    """The same shape with the amplitudes that suit each channel by itself."""
+    channels = measurement.brdf.shape[1]
+    terms = layout.model.terms
+    unit = {**values, **{_amplitude_key(t): 1.0 for t in terms if not _is_fixed(layout, t)}}
+    shapes = [t.model(measurement.geom, **layout.model.of_term(t, unit)) for t in terms]
+    data = np.where(measurement.weighed, measurement.level, np.inf)  # a missing value asks for nothing
+    data = np.maximum(data, FAINTEST * np.max(data[measurement.weighed], initial=0.0))
+    columns = np.stack([(np.broadcast_to(shape, measurement.brdf.shape) / data).T for shape in shapes], axis=2)
+    # where nothing is asked for, the target of 1 must not be missed either
+    usable = measurement.weighed.T
+    fixed, limits = _fixed_and_limits(layout)
+    amplitudes = non_negative(columns, fixed, limits, usable)
+    # a start of exactly 0 would sit on its bound; where all are 0, a thousandth of what would carry the data by itself
+    lowest = 1e-6 * np.max(amplitudes, axis=0)
+    lowest = np.where(
+        lowest > 0, lowest, np.minimum(1e-3 / np.maximum(np.mean(columns, axis=(0, 1)), 1e-300), 0.5 * limits)
+    )
+    for place, term in enumerate(terms):
+        if not fixed[place]:
+            values[_amplitude_key(term)] = np.maximum(amplitudes[:, place], lowest[place]) * np.ones(channels)
+    return values
+
+
+def spread_rows(measurement: Measurement, count: int) -> np.ndarray:
+    """Row numbers of about `count` directions: every incidence, spread by distance from the mirror direction."""
+    if len(measurement.brdf) <= count:
+        return np.arange(len(measurement.brdf))
+    groups = [rows for rows in _scans(measurement) if len(rows)]
+    if len(groups) > count // 8:
+        groups = [groups[place] for place in np.linspace(0, len(groups) - 1, count // 8).round().astype(int)]
+    share = max(count // len(groups), 4)
+    picked = []
+    for rows in groups:
+        by_distance = rows[np.argsort(measurement.geom.mirror_distance2[rows, 0], kind="stable")]
+        # quadratic spacing: dense where lobes are steep
+        places = np.unique((np.linspace(0, 1, share) ** 1.5 * (len(rows) - 1)).astype(int))
+        picked.append(by_distance[places])
+    return np.sort(np.concatenate(picked))
+
+
+def _scans(measurement: Measurement):
+    """The rows of each incidence; under each turn of the sample by itself."""
+    turns = turn_of_each(measurement.geom)
+    for rows in measurement.theta_i_groups.values():
+        yield from [rows] if turns is None else (rows[turns[rows] == each] for each in np.unique(turns[rows]))
+
+
+def _term_grid(layout: Layout, term, geom):
+    """The shapes of one term [(name, value)...] and its values at unit amplitude, (shapes, samples)."""
+    searched = [p for p in term.model.parameters if term.key(p.name) in layout.parameters and not p.linear]
+    names = [p.name for p in searched if p.name not in term.shared]  # what is shared is tried where it belongs
+    base = {**term.model.defaults(), **layout.model.of_term(term, layout.model.defaults())}
+    base = {name: float(np.mean(value)) for name, value in base.items()}
+    if not _is_fixed(layout, term):
+        base[term.model.amplitude] = 1.0
+    grid = list(
+        product(*(_along(term.model.parameter(name), layout.model.start.get(term.key(name))) for name in names))
+    )
+    at = dict(zip(names, np.array(grid).T, strict=True))  # shapes stand where channels do
+    values = term.model(geom, **{**base, **at})
+    return [dict(zip(names, each, strict=True)) for each in grid], np.broadcast_to(values, (len(geom), len(grid))).T
+
+
+def _along(parameter, start) -> tuple[float, ...]:
+    """Values to try along one parameter: its own, or even in its coordinate; and where a guideline would begin."""
+    if parameter.starts:
+        values = parameter.starts
+    elif parameter.log:
+        low, high = max(parameter.low - parameter.origin, 1e-4), min(parameter.high - parameter.origin, 1e4)
+        values = tuple(parameter.origin + np.geomspace(low, high, SPREAD + 2)[1:-1])
+    else:
+        values = tuple(np.linspace(parameter.low, parameter.high, SPREAD + 2)[1:-1])
+    return values if start is None else tuple(sorted({*values, float(np.mean(start))}))
+
+
+def _in_order(layout: Layout, shape) -> bool:
+    """Of lobes that may be exchanged only one order is tried."""
+    labels = [term.label for term in layout.model.terms]
+    alike = [[shape[labels.index(label)] for label in group] for group in layout.alike]
+    return all(places == sorted(places) for places in alike)
+
+
+def _fixed_and_limits(layout: Layout) -> tuple[np.ndarray, np.ndarray]:
+    """Which terms have no amplitude to solve for, and how high those of the others may be."""
+    models = [term.model for term in layout.model.terms]
+    limits = [model.parameter(model.amplitude).high if model.amplitude else 1.0 for model in models]
+    return np.array([_is_fixed(layout, term) for term in layout.model.terms]), np.array(limits)
+
+
+def _is_fixed(layout: Layout, term) -> bool:
+    """Whether the term has no amplitude to solve for."""
+    return _amplitude_key(term) not in layout.parameters
+
+
+def _amplitude_key(term) -> str:
+    """The key of the term's amplitude; of nothing where it has none."""
+    return term.key(term.model.amplitude or "")
+
+
+def _apart(one, other, axes) -> bool:
+    """Whether two shapes lie more than one grid step apart in some parameter."""
+    for term, axis in enumerate(axes):
+        for name in axis[0]:
+            values = sorted({shape[name] for shape in axis})
+            if abs(values.index(axis[one[term]][name]) - values.index(axis[other[term]][name])) > 1:
+                return True
+    return False
+
+
+def _values(model: Composite, axes, places, amplitudes) -> dict:
+    values = model.defaults()
+    for term, axis, place, amplitude in zip(model.terms, axes, places, amplitudes, strict=True):
+        values.update({term.key(name): float(value) for name, value in axis[place].items()})
+        if term.model.amplitude and term.model.parameter(term.model.amplitude).free:
+            values[_amplitude_key(term)] = float(amplitude)
+    return values
+
+
+def _channel_mean(measurement: Measurement):
+    """Geometric mean over the channels that were measured, (samples,), and where there is any."""
+    usable = measurement.weighed
+    logs = np.where(usable, np.log(np.where(usable, measurement.level, 1.0)), 0.0)
+    count = usable.sum(axis=1)
+    return np.exp(logs.sum(axis=1) / np.maximum(count, 1)), count > 0

@@ -1,0 +1,87 @@
+"""Chebyshev series of functions that are dear to compute, kept for each value of a law's parameters."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+CHOP = 1e-15  # of the greatest coefficient: smaller ones at the end of a series are dropped
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Functions of one variable in -1..1, each as coefficients of Chebyshev's polynomials, (functions, degree + 1)."""
+
+    coefficients: np.ndarray
+
+    def __call__(self, x, count: int) -> list[np.ndarray]:
+        """The first `count` functions, by Clenshaw's recurrence."""
+        twice, found = x + x, []
+        for coefficients in self.coefficients[:count].tolist():
+            above, beyond = np.zeros_like(x), np.zeros_like(x)
+            for coefficient in coefficients[:0:-1]:
+                following = twice * above  # 2x b_(k+1) - b_(k+2) + c_k
+                following -= beyond
+                following += coefficient
+                above, beyond = following, above
+            found.append(x * above - beyond + coefficients[0])
+        return found
+
+
+def series(functions: Callable[[np.ndarray], np.ndarray], count: int) -> Series:
+    """The Series through `count` Chebyshev nodes. Takes functions(x (nodes,)) -> (functions, nodes)."""
+    coefficients = functions(_nodes(count)) @ _transform(count).T
+    size = np.abs(coefficients)
+    kept = np.flatnonzero((size > CHOP * size.max(axis=1, keepdims=True)).any(axis=0)).max()
+    return Series(coefficients[:, : kept + 1])
+
+
+def powers(functions: Callable[[np.ndarray], np.ndarray], degree: int) -> np.ndarray:
+    """The polynomial through `degree` + 1 Chebyshev nodes as coefficients of 1, x, x²...: what a shader holds.
+
+    Takes functions(x (nodes,)) -> (nodes,).    Of a degree of 20 it keeps nine digits fewer than the series.
+    """
+    return np.polynomial.chebyshev.cheb2poly(functions(_nodes(degree + 1)) @ _transform(degree + 1).T)
+
+
+@cache
+def _nodes(count: int) -> np.ndarray:
+    return np.cos(np.pi * (np.arange(count) + 0.5) / count)
+
+
+@cache
+def _transform(count: int) -> np.ndarray:
+    """Coefficients from the values at the nodes."""
+    transform = np.cos(np.pi * np.arange(count)[:, None] * (np.arange(count) + 0.5) / count) * 2 / count
+    transform[0] /= 2
+    return transform
+
+
+def by_value(table: Callable[..., Callable], x, count: int, *parameters) -> list[np.ndarray]:
+    """The first `count` functions of `table(*values)` at x, for parameters that are numbers or one for each channel.
+
+    x and the parameters broadcast; a table is asked for once for each combination of values that occurs.
+    """
+    if not any(map(np.ndim, parameters)):
+        return table(*map(float, parameters))(x, count)
+    together = np.stack(np.broadcast_arrays(*parameters), axis=-1)
+    shape = np.broadcast_shapes(np.shape(x), together.shape[:-1])
+    x, found = np.broadcast_to(x, shape), [np.empty(shape) for _ in range(count)]
+    for values in np.unique(together.reshape(-1, len(parameters)), axis=0):
+        here = np.broadcast_to(np.all(together == values, axis=-1), shape)
+        for whole, part in zip(found, table(*values.tolist())(x[here], count), strict=True):
+            whole[here] = part
+    return found
+
+
+def over_logarithms(functions: Callable, scale: float, end: float) -> Callable:
+    """Functions of x in 0..end as Series in asinh(x/scale), for those whose nearest singularity is at ±i scale.
+
+    Takes functions(x (nodes,)) -> (functions, nodes).    Gives table(x, count), the first `count` of them.
+    """
+    half = 0.5 * np.arcsinh(end / scale)
+    ratio = 0.5 * np.pi / half
+    count = int(30 / np.log(ratio + np.hypot(ratio, 1.0))) + 4  # e^-30 is left of the ellipse of that strip
+    found = series(lambda x: functions(scale * np.sinh(half * (x + 1))), count)
+    return lambda x, count: found(np.arcsinh(x / scale) / half - 1, count)

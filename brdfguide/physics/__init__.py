@@ -1,0 +1,1 @@
+"""What light does: no fitted parameters, no data."""

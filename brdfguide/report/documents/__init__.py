@@ -1,0 +1,1 @@
+"""Results as dictionaries for JSON: the only source of text and page."""

@@ -1,0 +1,48 @@
+"""What data in the plane of incidence cost, and which term the law lacks, as blocks of a fit's document."""
+
+import numpy as np
+
+from ...fitting.missing_term import WORDS, MissingTerm
+from ...fitting.off_plane_price import Price
+
+
+def price_block(price: Price | None) -> dict | None:
+    """`off_plane` of `fit --json`; None for data that leave the plane of incidence."""
+    if price is None:
+        return None
+    return {
+        "expected_percent": _percent(price.rms_ln),
+        "rms_ln": price.rms_ln,
+        "in_plane_rms_ln": price.in_plane,
+        "rivals_part_by_rms_ln": price.spread,
+        "parameters_rms_ln": price.doubt,
+        "apart": [
+            {
+                "candidate": each.name,
+                "rms_ln": each.rms_ln,
+                "then_percent": _percent(each.then),
+                "at": [
+                    {"theta_i_deg": theta_i, "theta_r_deg": theta_r, "phi_deg": phi, "ln_ratio": ratio}
+                    for theta_i, theta_r, phi, ratio in each.at
+                ],
+            }
+            for each in price.apart
+        ],
+    }
+
+
+def missing_block(term: MissingTerm | None) -> dict | None:
+    """`missing` of `fit --json`; None where no term is named."""
+    if term is None:
+        return None
+    return {
+        "term": term.kind,
+        "words": term.words,
+        "share": term.share,
+        "confidence": term.confidence,
+        "beside": [{"term": kind, "words": WORDS[kind], "share": share} for kind, share in term.beside],
+    }
+
+
+def _percent(rms_ln: float) -> float:
+    return float(f"{100 * np.expm1(min(rms_ln, 50.0)):.3g}")

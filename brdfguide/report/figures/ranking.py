@@ -1,0 +1,38 @@
+"""A ranking as a figure: its lobes, what is left, and error against run time; and the figures of its page."""
+
+from ...data.measurement import Measurement
+from . import spheres, style
+from .cost import draw_cost, plot_cost
+from .lines import lines_of, shown_lines, title_of
+from .lobes import draw_lobes, plot_lobes
+
+
+def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIGHT) -> None:
+    """Draw the ranking into `path`, a .png, .svg or .pdf file, light or dark."""
+    with style.look():
+        fig = style.figure(180, 176)
+        above, below = fig.subfigures(2, 1, squeeze=False, height_ratios=(1.8, 1))[:, 0]
+        lines = lines_of(ranking)
+        draw_lobes(above, shown_lines(lines), measurement, title_of(lines, measurement))
+        draw_cost(below, lines)
+        style.save(fig, path, theme)
+
+
+def ranking_figures(ranking, measurement: Measurement) -> list[tuple[bytes, str]]:
+    """What a report page shows of a ranking: (file, caption) of the lobes, of error against run time, and of how the
+    recommended model and the worst of those drawn look."""
+    lines = lines_of(ranking)
+    plotted = shown_lines(lines)
+    pick = next((line for line in plotted if line.recommended), plotted[0])
+    pair = [pick] + [line for line in plotted[-1:] if line is not pick]
+    return [
+        (
+            style.figure_file(plot_lobes(plotted, measurement, title=title_of(lines, measurement))),
+            "BRDF against reflection angle, on a log axis as the guide plots it, and what each model leaves over.",
+        ),
+        (
+            style.figure_file(plot_cost(lines)),
+            "Error against run time. A model on the front is beaten by no other in both.",
+        ),
+        spheres.picture_of_looks([line.surface for line in pair]),
+    ]

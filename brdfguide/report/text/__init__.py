@@ -1,0 +1,1 @@
+"""Documents in words for a terminal or a pipe."""

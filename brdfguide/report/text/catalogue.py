@@ -1,0 +1,32 @@
+"""What there is, in words."""
+
+from .folding import folded
+from .table import columns
+
+
+def models_text(document: dict) -> str:
+    """Every law, a line each."""
+    return columns(("model", "what for"), [(each["name"], each["summary"]) for each in document["models"]])
+
+
+def model_text(entry: dict) -> str:
+    """One model for people: the law, then its parameters with units and bounds."""
+    table = columns(
+        ("parameter", "default", "from", "to", "unit", "meaning"),
+        [
+            (p["name"], f"{p['default']:g}", f"{p['low']:g}", f"{p['high']:g}", p["unit"], p["meaning"])
+            for p in entry["parameters"]
+        ],
+        right=(1, 2, 3),
+    )
+    broken = "".join(f"\nbreaks {name}: {why}" for name, why in entry["breaks"].items())
+    cannot = f"\ncannot: {entry['cannot']}" if entry["cannot"] else ""
+    tried = "tried by `fit` by default" if entry["tried_by_default"] else f"tried where it is named: -m {entry['name']}"
+    shaders = "" if entry["formula_for_shaders"] else "\nstates no formula for shaders: export it as a table or a refit"
+    return f"{_reflowed(entry['law'])}\n\n{table}{broken}{cannot}\n{tried}{shaders}"
+
+
+def _reflowed(law: str) -> str:
+    """Prose in lines that fit the screen; formulas, which are indented, as they are."""
+    blocks = law.split("\n\n")
+    return "\n\n".join(each if each.startswith(" ") else folded(" ".join(each.split("\n"))) for each in blocks)

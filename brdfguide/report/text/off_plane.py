@@ -1,0 +1,37 @@
+"""What data in the plane of incidence cost, and which term the law lacks, in words."""
+
+from .folding import folded
+
+SHOWN = 2  # laws that part outside the plane
+
+
+def off_plane_text(document: dict) -> str:
+    """A sentence on each, and where laws that tie in the plane part outside it; nothing where nothing is known."""
+    return "\n".join(folded(each, "", "  ") for each in off_plane_sentences(document))
+
+
+def off_plane_sentences(document: dict) -> list[str]:
+    """The same, sentence by sentence."""
+    return [*_price(document.get("off_plane")), *_missing(document.get("missing"))]
+
+
+def _price(price: dict | None):
+    if not price:
+        return
+    said = (
+        f"outside the plane of incidence, where nothing was measured, expect it {price['expected_percent']:.2g} % off"
+    )
+    yield f"{said}; `brdfguide plan --after` says which directions tell"
+    for each in price["apart"][:SHOWN]:
+        at = each["at"][0]
+        place = f"theta_i {at['theta_i_deg']:g}, theta_r {at['theta_r_deg']:g}, phi {at['phi_deg']:g} deg"
+        said = f"{each['candidate']} ties with it in the plane and parts from it outside, most at {place}"
+        yield f"{said}: {each['then_percent']:.2g} % off if that one is right"
+
+
+def _missing(term: dict | None):
+    if not term:
+        return
+    said = f"what it lacks looks like {term['words']}: {100 * term['share']:.0f} % of what is left would go"
+    others = ", ".join(f"{each['words']} {100 * each['share']:.0f} %" for each in term["beside"])
+    yield f"{said} (confidence {term['confidence']:.2f}{f'; {others}' if others else ''})"

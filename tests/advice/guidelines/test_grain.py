@@ -1,0 +1,57 @@
+"""What is said of a grain becomes two widths and an axis; what contradicts itself is flagged."""
+
+import numpy as np
+import pytest
+
+from brdfguide.advice import recommend
+from brdfguide.advice.material import observed, said_to_be_grained
+
+BRUSHED = {"composition": "stainless steel", "appearance": "metal", "texture": "brushed"}
+
+
+def start(**seen):
+    found = recommend.recommend(observed(BRUSHED | seen))
+    first = found.candidates[0]
+    assert first.model.name == "ggx-aniso"
+    return {name.rpartition(".")[2]: value for name, value in first.start.items()}
+
+
+def says(**seen):
+    return " ".join(each.says for each in recommend.recommend(observed(BRUSHED | seen)).advice)
+
+
+def test_the_ratio_is_what_was_seen_of_the_streak_else_what_is_usual():
+    usual, seen = start(finish="satin"), start(finish="satin", highlight_aspect=6)
+    assert usual["alpha_x"] / usual["alpha_y"] == pytest.approx(4.0)
+    assert seen["alpha_x"] / seen["alpha_y"] == pytest.approx(6.0)
+    assert np.sqrt(usual["alpha_x"] * usual["alpha_y"]) == pytest.approx(np.sqrt(seen["alpha_x"] * seen["alpha_y"]))
+    assert "usual for brushed metal" in says(finish="satin") and "6 times as wide" in says(highlight_aspect=6)
+
+
+def test_the_width_that_was_seen_of_a_streak_is_its_short_one():
+    narrow, wide = start(highlight_width_deg=8, highlight_aspect=1), start(highlight_width_deg=8, highlight_aspect=5)
+    assert wide["alpha_y"] == pytest.approx(narrow["alpha_y"]) and wide["alpha_x"] == pytest.approx(5 * wide["alpha_y"])
+
+
+def test_the_axis_lies_across_the_grooves():
+    assert np.degrees(start(grain_deg=30)["axis"]) == pytest.approx(120.0)
+    assert np.degrees(start(grain_deg=120)["axis"]) == pytest.approx(30.0)
+
+
+@pytest.mark.parametrize(
+    "seen", [{"turned_90_brighter": True}, {"streak": "across the grain"}, {"highlight_aspect": 3}]
+)
+def test_what_is_seen_of_a_streak_is_a_grain_too(seen):
+    assert said_to_be_grained(observed({"composition": "aluminium", "appearance": "metal"} | seen))
+    assert not said_to_be_grained(observed({"composition": "aluminium", "appearance": "metal"}))
+
+
+@pytest.mark.parametrize("streak", ["along the grain", "none"])
+def test_a_streak_that_brushing_cannot_make_is_flagged(streak):
+    found = recommend.recommend(observed(BRUSHED | {"streak": streak}))
+    assert any(each.conflict and "brushing draws a highlight out across" in each.says for each in found.advice)
+
+
+def test_brushed_yet_unchanged_when_turned_still_conflicts():
+    found = recommend.recommend(observed(BRUSHED | {"changes_when_turned": False}))
+    assert any(each.conflict and "unchanged as it turns" in each.says for each in found.advice)

@@ -1,0 +1,78 @@
+"""`recommend`, `inspect` and `export` over many surfaces: a row each, and what one alone would say."""
+
+import json
+
+import pytest
+
+from ..cli.test_options import run
+from .test_run import some
+
+
+def answered(line: str) -> tuple[int, str, str]:
+    return run(line, {})
+
+
+def test_folders_are_inspected_as_their_files_are(tmp_path):
+    files = [some(tmp_path, f"{part}.csv", part) for part in range(2)]
+    status, out, _ = answered(f"inspect {tmp_path} --json")
+    rows = json.loads(out)["rows"]
+    assert status == 0 and [row["file"] for row in rows] == [str(file) for file in files]
+    alone = json.loads(answered(f"inspect {files[1]} --json")[1])
+    assert rows[1]["inspect"] == alone
+    status, out, err = answered(f"inspect {tmp_path} --out {tmp_path / 'd'}")
+    assert status == 0 and "answered" in out and "2 files, 0 answered before" in err
+    assert "2 files, 2 answered before" in answered(f"inspect {tmp_path} --out {tmp_path / 'd'}")[2]
+
+
+def test_many_descriptions_are_a_row_each_and_one_outside_stops_none(tmp_path):
+    (tmp_path / "hair.yaml").write_text("structure: hair\n")
+    (tmp_path / "list").write_text(f"porcelain\n{tmp_path / 'hair.yaml'}\noffice-paper\nnonsense\n")
+    status, out, err = answered(f"recommend --files-from {tmp_path / 'list'} --no-timing --out {tmp_path / 'd'}")
+    states = [line.rsplit("  ", 1)[1] for line in out.splitlines()[1:]]
+    assert status == 2 and states == ["answered", "no trustworthy answer", "answered", "bad input"]
+    assert "--anyway answers all the same" in err and "nonsense" in err
+    again = answered(f"recommend --files-from {tmp_path / 'list'} --no-timing --out {tmp_path / 'd'} --json")[1]
+    rows = json.loads(again)["rows"]
+    alone = json.loads(answered("recommend porcelain --no-timing --json")[1])
+    assert rows[0]["answered_before"] and rows[0]["recommend"]["candidates"] == alone["candidates"]
+
+
+def test_answers_of_a_folder_are_exported_under_their_files_names(tmp_path):
+    files = [some(tmp_path, f"{part}.csv", part) for part in range(3)]
+    fits = f"fit {' '.join(map(str, files))} -m lambertian+ggx --no-timing --out {tmp_path / 'd'}"
+    assert answered(fits)[0] == 0
+    status, out, err = answered(f"export {tmp_path / 'd'} --to mitsuba -o {tmp_path}/x/{{{{stem}}}}.xml --jobs 2")
+    assert status == 0 and out.count("mitsuba") == 3, err
+    assert sorted(path.name for path in (tmp_path / "x").iterdir()) == ["0.xml", "1.xml", "2.xml"]
+    status, _, err = answered(f"export {tmp_path / 'd'} --to mitsuba -o {tmp_path}/x/{{{{stem}}}}.xml")
+    assert status == 2 and "exists; --force replaces it" in err
+    shards = [
+        answered(f"export {tmp_path / 'd'} --to gltf -o {tmp_path}/y/{{{{stem}}}}.gltf --shard {number}/2 -q")
+        for number in range(2)
+    ]
+    assert all(each[0] == 0 for each in shards)
+    assert sum(path.suffix == ".gltf" for path in (tmp_path / "y").iterdir()) == 3
+
+
+@pytest.mark.parametrize(
+    "line, sentence",
+    [
+        ("inspect", "no DATA"),
+        ("recommend", "no INPUT"),
+        ("inspect {tmp} --plot {tmp}/x.png", "--plot: a picture is of one file"),
+        ("recommend porcelain office-paper --jobs 2 --numbers", "--numbers: of one description at a time"),
+        ("recommend porcelain --jobs 2 --explain", "--explain: a row has no place for it"),
+        ("export porcelain office-paper --to mitsuba -o {tmp}/x.xml", "wanted {stem} in it"),
+        (
+            "export porcelain office-paper --to mitsuba -o {tmp}/{{stem}}.xml --out {tmp}/d",
+            "--out: the files themselves",
+        ),
+        ("export porcelain --to mitsuba -o {tmp}/x.xml --jobs 2", "--jobs: one file"),
+    ],
+)
+def test_what_many_cannot_have_is_a_sentence(line, sentence, tmp_path):
+    some(tmp_path, "a.csv", 0)
+    some(tmp_path, "b.csv", 1)
+    line = line.replace("{tmp}", str(tmp_path)).replace("{{stem}}", "{{stem}}")
+    status, out, err = run(line, {})
+    assert status == 2 and out == "" and sentence in err and err.count("\n") == 1

@@ -1,0 +1,120 @@
+"""A process that dies takes its task with it and no other; with ours all of them end."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import closing
+
+import pytest
+
+from brdfguide.batch import workers
+from brdfguide.batch.workers import Limits
+from brdfguide.errors import InputError
+
+from ..conftest import ROOT
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="signals as POSIX has them")
+
+
+def double(number):
+    return 2 * number
+
+
+def double_or_die(number):
+    if number == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return 2 * number
+
+
+def die_once(path):
+    if not os.path.exists(path):
+        open(path, "w").close()
+        os._exit(7)
+    return "done"
+
+
+def greedy(mb):
+    try:
+        return str(len(bytearray(mb * 2**20)) // 2**20)
+    except MemoryError:
+        return "MemoryError"
+
+
+def sleep(path):
+    open(path, "w").close()
+    time.sleep(600)
+
+
+def test_every_task_is_done_once():
+    assert dict(workers.done(double, enumerate(range(7)), 2)) == {number: 2 * number for number in range(7)}
+
+
+def test_a_task_that_kills_its_process_twice_is_told_and_the_others_are_done():
+    found = dict(workers.done(double_or_die, enumerate(range(6)), 2))
+    died = found.pop(3)
+    assert found == {number: 2 * number for number in (0, 1, 2, 4, 5)}
+    assert died.words == "not done, twice: its process was ended by signal 9, perhaps for want of memory"
+
+
+def test_a_task_whose_process_died_once_is_done_by_another(tmp_path):
+    assert dict(workers.done(die_once, enumerate([str(tmp_path / "mark"), str(tmp_path / "other")]), 2)) == {
+        0: "done",
+        1: "done",
+    }
+
+
+def test_a_task_that_takes_too_long_is_ended_and_the_others_are_done(tmp_path):
+    files = [str(tmp_path / name) for name in "ab"]
+    begun = time.monotonic()
+    found = dict(workers.done(sleep, iter([(0, files[0]), (1, workers.Done("before")), (2, files[1])]), 2, Limits(0.5)))
+    assert found[1] == "before" and time.monotonic() - begun < 30
+    assert [found[number].words for number in (0, 2)] == ["not done within 0.5 seconds"] * 2
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems set no such limit")
+def test_a_task_that_wants_more_memory_than_it_may_have_fails_in_its_own_process():
+    found = dict(workers.done(greedy, iter([(0, 2000), (1, 1)]), 1, Limits(memory_mb=500)))
+    assert found == {0: "MemoryError", 1: "1"}
+
+
+def test_leaving_early_ends_the_processes(tmp_path):
+    with closing(workers.done(double, enumerate(range(1000)), 2)) as answers:
+        next(answers)
+        begun = time.monotonic()
+    assert time.monotonic() - begun < 1.0
+
+
+def test_no_process_at_all_is_a_sentence(monkeypatch):
+    def none(*_, **__):
+        raise OSError(24, "Too many open files")
+
+    monkeypatch.setattr(workers, "get_context", lambda _: type("Context", (), {"Pipe": staticmethod(none)}))
+    with pytest.raises(InputError, match="no process can be started: Too many open files; --jobs 1 needs none"):
+        list(workers.done(double, iter([(0, 1)]), 2))
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_workers_end_with_their_parent(number, tmp_path):
+    """Whatever ended it: they would hold its pipes, and whoever reads these would wait for ever."""
+    script = "\n".join(
+        (
+            "from brdfguide.batch import workers",
+            "from tests.batch.test_workers import sleep",
+            f"list(workers.done(sleep, enumerate([{str(tmp_path / 'a')!r}, {str(tmp_path / 'b')!r}]), 2))",
+        )
+    )
+    (tmp_path / "main.py").write_text(f'if __name__ == "__main__":\n    {script.replace(chr(10), chr(10) + "    ")}\n')
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    run = subprocess.Popen(
+        [sys.executable, str(tmp_path / "main.py")], stdout=subprocess.PIPE, cwd=ROOT, env=environment
+    )
+    until = time.monotonic() + 60
+    while not ((tmp_path / "a").exists() and (tmp_path / "b").exists()):
+        assert time.monotonic() < until and run.poll() is None
+        time.sleep(0.05)
+    run.send_signal(number)
+    begun = time.monotonic()
+    assert run.communicate(timeout=30) == (b"", None)  # the pipe is closed once the last of them is gone
+    assert time.monotonic() - begun < 5.0

@@ -1,0 +1,98 @@
+"""What `benchmarks/fuzz` found, each by its kind: a sentence or an honest reading, in time, and no warning."""
+
+import json
+import struct
+import time
+
+import numpy as np
+import pytest
+
+from brdfguide.data import examine, formats
+from brdfguide.errors import BrdfguideError, InputError, NoAnswer
+from brdfguide.fitting.compare import compare
+from brdfguide.models import candidates
+
+from .containers import cornell, fred, rgl_fields, tensor_file, zemax
+
+ROWS = "".join(f"{i},{r},0.2\n" for i in (10, 30, 50) for r in range(-40, 61, 20))
+
+
+def read(tmp_path, content):
+    path = tmp_path / "found"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return formats.read(path)
+
+
+def test_a_byte_order_mark_before_what_is_no_utf_8_is_no_text(tmp_path):
+    measurement = read(tmp_path, b"\xef\xbb\xbf" + cornell().replace("made up", "caf\xe9").encode("latin-1"))
+    assert len(measurement.channels) == 3
+
+
+@pytest.mark.parametrize("angle", ["1e308", "-1e305", "1e300"])
+def test_an_angle_that_no_rounding_survives_is_refused(tmp_path, angle):
+    table = "theta_i,phi_i,theta_r,phi_r,brdf\n" + "".join(f"10,0,{r},180,0.2\n" for r in (10, 20, 30, 30))
+    with pytest.raises(InputError, match="is no angle"):
+        read(tmp_path, table.replace("20,180", f"20,{angle}"))
+    rows = [[5.5e-7, 0.1, 0.2, float(angle), 0.3], [5.5e-7, 0.1, 0.3, 0.0, 0.3]]
+    with pytest.raises(InputError, match="is no angle|wanted a number"):
+        read(tmp_path, json.dumps({"brdf": {"lookupTable": rows}}))
+    with pytest.raises(InputError):
+        read(tmp_path, json.dumps({"brdf": {"lookupTable": [[float(angle), *row[1:]] for row in rows]}}))
+
+
+def test_vectors_of_any_length_are_directions(tmp_path):
+    head = "#DIM 6 1\n#VS 0\n#PARAM_IN CARTESIAN\n#PARAM_OUT INV_STERADIAN\n"
+    huge = read(tmp_path, head + "0 3e200 4e200 0 0 1e300 0.5\n0 0 1 0 0 1 0.4\n")
+    np.testing.assert_allclose(huge.geom.theta_r_deg[:, 0], [np.degrees(np.arctan2(3, 4)), 0], atol=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", ["1e400", "inf", "nan", "0", "-1"])
+def test_a_scale_that_scales_nothing_is_refused_with_its_line(tmp_path, scale):
+    with pytest.raises(InputError, match=f"line 2: .*{scale}"):
+        read(tmp_path, fred().replace("scale=1", f"scale={scale}"))
+
+
+def test_a_scale_beyond_numbers_leaves_no_value_and_says_so(tmp_path):
+    measurement = read(tmp_path, fred().replace("scale=1", "scale=1e300").replace("0.5", "1e9"))
+    assert "infinite-values" in [finding.code for finding in measurement.findings]
+
+
+@pytest.mark.parametrize("phis", [1, 3])
+def test_an_area_of_zero_leaves_no_value(tmp_path, phis):
+    fields = rgl_fields(4, phis=phis)
+    fields["sigma"] = np.zeros_like(fields["sigma"])
+    try:
+        measurement = read(tmp_path, tensor_file(**fields))
+    except BrdfguideError:
+        return
+    assert not np.any(measurement.has_value)
+
+
+def test_two_hundred_thousand_tabulators_end_soon(tmp_path):
+    start = time.process_time()
+    with pytest.raises(InputError):
+        read(tmp_path, zemax().replace("SampleRotation 1", "SampleRotation 1" + "\t" * 200_000))
+    read(tmp_path, "theta_i\ttheta_r\tbrdf" + "\t" * 200_000 + "\n" + ROWS.replace(",", "\t"))
+    assert time.process_time() - start < 5
+
+
+@pytest.mark.parametrize("value", ["1e300", "1e308", "1e101"])
+def test_values_beyond_what_a_brdf_can_be_are_examined_and_fitted_without(tmp_path, value):
+    lines = ROWS.splitlines()
+    lines[3] = lines[3].replace("0.2", value)
+    measurement = read(tmp_path, "theta_i,theta_r,brdf\n" + "\n".join(lines) + "\n")
+    examine.examine(measurement)
+    ranked = compare(examine.prepared(measurement, anyway=True), candidates.of_kind(None, ("lambertian",)))
+    assert ranked.rows[0].rms_ln < 1e-6
+    nothing = read(tmp_path, "theta_i,theta_r,brdf\n" + ROWS.replace("0.2", value))
+    examine.examine(nothing)
+    with pytest.raises(NoAnswer):
+        compare(examine.prepared(nothing, anyway=True), candidates.of_kind(None, ("lambertian",)))
+
+
+def test_a_table_of_values_that_none_can_be_is_examined(tmp_path):
+    content = struct.pack("<3i", 90, 90, 180) + np.full(3 * 90 * 90 * 180, 1e300).tobytes()
+    measurement = read(tmp_path, content)
+    assert not np.any(measurement.has_value)
+    examine.examine(measurement)

@@ -1,0 +1,48 @@
+"""Surfaces as goniometers' tables: read back, they are the surface to what the statement says."""
+
+import numpy as np
+import pytest
+
+from brdfguide import exporters
+from brdfguide.data import formats
+from brdfguide.exporters.tables import goniometric
+from brdfguide.physics.geometry import Geometry, rows
+
+from .conftest import EVERY_LAW, surface
+
+TARGETS = ("zemax", "fred", "lighttools", "astm", "speos", "tracepro", "csv")
+SATIN = surface("lambertian+ggx", lambertian__albedo=0.3, ggx__alpha=0.3, ggx__n=1.5)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_a_written_surface_is_the_surface_at_its_nodes(tmp_path, target, monkeypatch):
+    monkeypatch.setattr(goniometric, "LEVELS", goniometric.LEVELS[:1])
+    monkeypatch.setattr(goniometric, "ABOUT_NORMAL", goniometric.ABOUT_NORMAL[:1])
+    made = exporters.export(target, SATIN)
+    path = tmp_path / f"it{exporters.get(target).suffix}"
+    path.write_text(made.content)
+    read = formats.read(path)
+    above = (read.geom.theta_r_deg < 89)[:, 0]
+    np.testing.assert_allclose(read.brdf[above], SATIN.spectral(read.geom)[above], rtol=2e-5)
+    assert made.statement.status == "refit" and "read linearly it is within" in made.statement.notes[0]
+
+
+def test_about_the_mirror_direction_a_satin_surface_is_held_to_a_percent():
+    statement = exporters.export("zemax", SATIN).statement
+    assert "% could not be held" not in statement.notes[0] and statement.rms_ln < 0.01
+    wide = exporters.export("zemax", surface("lambertian+ggx", lambertian__albedo=0.3, ggx__alpha=0.03)).statement
+    assert "1 % could not be held" in wide.notes[0]
+
+
+def test_colour_in_a_format_of_one_channel_is_lost_and_said_to_be():
+    statement = exporters.export("fred", EVERY_LAW["lambertian"]).statement
+    assert statement.status == "lossy" and "the file holds its luminance" in statement.lost[0]
+
+
+@pytest.mark.parametrize("about_mirror", [True, False])
+def test_nodes_are_read_as_they_were_put(about_mirror):
+    made = goniometric.at_nodes(SATIN.spectral, 0, 10.0, about_mirror)
+    measurement = made.measurement(("550nm",), (0.55,), "satin", "made")
+    np.testing.assert_allclose(made.read(measurement.geom), measurement.brdf, rtol=1e-7)
+    geom = rows(Geometry.from_degrees([0.0, 25.0], 0.0, [40.0, 30.0], [120.0, 170.0]))
+    np.testing.assert_allclose(made.read(geom), SATIN.spectral(geom), rtol=0.2)

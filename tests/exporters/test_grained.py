@@ -1,0 +1,118 @@
+"""A grain in a file: its numbers give the widths back, and its streak lies where the surface has it, in all readers."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from brdfguide import exporters, models
+from brdfguide.errors import NoAnswer
+from brdfguide.exporters import _grained
+from brdfguide.exporters.exporter import ColouredSurface
+from brdfguide.physics.geometry import Geometry, rows
+
+TARGETS = [name for name in exporters.names() if exporters.get(name).grained]
+WIDE, NARROW, AXIS = 0.3, 0.075, 30.0
+
+
+def brushed(axis=AXIS, law="ggx-aniso", **values):
+    values = {"alpha_x": WIDE, "alpha_y": NARROW, "axis": np.radians(axis), **values}
+    if law == "ggx-aniso":
+        values |= {"n": 1.0, "k": 4.0}
+    return ColouredSurface(models.get(law), {f"{law}.{name}": value for name, value in values.items()})
+
+
+def streak(brdf, axis=AXIS):
+    """Values 20° off the mirror direction of light at the normal: along the axis and across it."""
+    geom = rows(Geometry.from_degrees(0.0, 0.0, 20.0, np.array([axis, axis + 180, axis + 90, axis + 270])))
+    return brdf(geom)[:, 0]
+
+
+@pytest.mark.parametrize("target", TARGETS)
+def test_what_the_file_shows_has_its_streak_along_the_axis(target):
+    law = "ward-gmd-aniso" if target == "radiance" else "ggx-aniso"
+    surface = brushed(law=law, **({"rho_s": 0.8} if target == "radiance" else {}))
+    statement = exporters.export(target, surface).statement
+    along, back, across, other = streak(statement.shown)
+    assert along == pytest.approx(back, rel=1e-9) and across == pytest.approx(other, rel=1e-9)
+    assert along > 10 * across
+    np.testing.assert_allclose(streak(statement.shown), streak(surface.rgb), rtol=0.12)
+    assert statement.rms_ln < 0.03 and not any("grain" in each for each in statement.lost)
+    turned = [each for each in statement.notes if f"{AXIS:g} degrees" in each]
+    assert turned or target == "radiance"
+
+
+def test_gltf_gives_both_widths_and_the_axis_back():
+    material = json.loads(exporters.export("gltf", brushed()).content)["materials"][0]
+    alpha = material["pbrMetallicRoughness"]["roughnessFactor"] ** 2
+    grain = material["extensions"]["KHR_materials_anisotropy"]
+    assert alpha == pytest.approx(NARROW, rel=0.02)
+    assert alpha + (1 - alpha) * grain["anisotropyStrength"] ** 2 == pytest.approx(WIDE, rel=0.02)
+    assert np.degrees(grain["anisotropyRotation"]) == pytest.approx(AXIS)
+
+
+@pytest.mark.parametrize("target", ["openpbr", "standard-surface"])
+def test_materialx_gives_both_widths_back(target):
+    text = exporters.export(target, brushed()).content
+    values = {name: float(value) for name, value in re.findall(r'name="(\w+)" type="float" value="([^"]+)"', text)}
+    r = values["specular_roughness"]
+    if target == "openpbr":
+        ratio = 1 - values["specular_roughness_anisotropy"]
+        wide = r**2 * np.sqrt(2 / (1 + ratio**2))
+    else:
+        ratio = 1 - values["specular_anisotropy"]
+        wide = r**2 / np.sqrt(ratio)
+        assert 360 * values["specular_rotation"] == pytest.approx(AXIS)
+    assert wide == pytest.approx(WIDE, rel=0.02) and ratio * wide == pytest.approx(NARROW, rel=0.02)
+
+
+def test_pbrt_has_the_law_itself():
+    made = exporters.export("pbrt", brushed())
+    assert made.statement.status == "exact"
+    assert re.search(rf'"float uroughness" {WIDE}  "float vroughness" {NARROW}', made.content)
+
+
+def test_radiance_has_wards_bounded_law_and_the_direction_across_the_grain():
+    made = exporters.export("radiance", brushed(law="ward-gmd-aniso", rho_s=0.8))
+    assert made.statement.status == "exact"
+    lines = made.content.splitlines()
+    assert re.match(r"void (metal|plastic)2 ", lines[-4])
+    numbers = [float(word) for word in lines[-3].split()[1:4]]
+    np.testing.assert_allclose(numbers, [np.cos(np.radians(AXIS)), np.sin(np.radians(AXIS)), 0.0], atol=1e-9)
+    np.testing.assert_allclose([float(word) for word in lines[-1].split()[-2:]], [WIDE, NARROW], rtol=1e-4)
+
+
+def test_the_wider_of_both_widths_says_where_the_streak_lies():
+    assert np.degrees(_grained.axis_of(brushed(axis=30.0))) == pytest.approx(30.0)
+    swapped = brushed(axis=30.0, alpha_x=NARROW, alpha_y=WIDE)
+    assert np.degrees(_grained.axis_of(swapped)) == pytest.approx(120.0)
+    assert _grained.axis_of(brushed(alpha_x=0.1, alpha_y=0.1)) is None
+
+
+def test_grains_that_cross_are_refused():
+    law = models.get("ggx-aniso+ward-gmd-aniso")
+    values = {"ggx-aniso.alpha_y": 0.05, "ward-gmd-aniso.alpha_y": 0.05, "ward-gmd-aniso.axis": 1.0}
+    with pytest.raises(NoAnswer, match="it has more than one grain"):
+        exporters.export("mitsuba", ColouredSurface(law, law.defaults() | values))
+
+
+@pytest.mark.validate
+def test_mitsuba_shows_the_streak_that_the_statement_has():
+    mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba: the reader of these exports")
+    mitsuba.set_variant("scalar_rgb")
+    surface = brushed(axis=0.0)  # its u lies along x
+    made = exporters.export("mitsuba", surface)
+    bsdf, si = mitsuba.load_string(made.content), mitsuba.SurfaceInteraction3f()
+    geom = rows(Geometry.from_degrees(30.0, np.arange(0, 180, 15.0), 35.0, np.arange(0, 180, 15.0) + 170.0))
+
+    def vector(theta, phi):
+        theta, phi = np.radians(theta), np.radians(phi)
+        return [np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)]
+
+    got = []
+    for turn in np.arange(0, 180, 15.0):
+        si.wi = vector(30.0, turn)
+        out = vector(35.0, turn + 170.0)
+        got.append(np.array(bsdf.eval(mitsuba.BSDFContext(), si, out))[0] / out[2])
+    np.testing.assert_allclose(got, made.statement.shown(geom)[:, 0], rtol=1e-4)

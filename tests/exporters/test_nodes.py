@@ -1,0 +1,115 @@
+"""Shaders of their own: a fit of one is written as it is, a mirror becomes a coat, the best candidate is taken."""
+
+import json
+import re
+
+import pytest
+
+from brdfguide import exporters
+from brdfguide.errors import NoAnswer
+from brdfguide.exporters import coloured
+from brdfguide.models.surface import Surface
+
+OWN = {
+    "openpbr": {"base_color": [0.8, 0.1, 0.05], "specular_roughness": 0.4, "coat_weight": 0.6, "coat_roughness": 0.2},
+    "standard-surface": {"base_color": [0.3, 0.6, 0.05], "specular_roughness": 0.4, "sheen": 0.3, "coat": 0.0},
+    "gltf": {"base_color": [0.3, 0.6, 0.05], "metallic": 1.0, "roughness": 0.4, "clearcoat": 1.0},
+}
+
+
+def of(expression, values=None):
+    return coloured(Surface.named(expression, values or {}), "it")
+
+
+@pytest.mark.parametrize("target", OWN)
+def test_a_shader_is_written_as_it_is(target):
+    made = exporters.export(target, of(target, OWN[target]))
+    assert made.statement.status == "exact" and made.statement.rms_ln < 1e-6
+    for name, value in OWN[target].items():
+        written = made.statement.written[name]
+        assert written == pytest.approx(value), name
+
+
+def test_the_file_holds_the_numbers_of_the_statement():
+    text = exporters.export("openpbr", of("openpbr", OWN["openpbr"])).content
+    found = dict(re.findall(r'name="(\w+)" type="\w+" value="([^"]*)"', text))
+    assert found["coat_weight"] == "0.6" and found["specular_roughness"] == "0.4"
+    assert found["base_color"] == "0.8, 0.1, 0.05"
+    material = json.loads(exporters.export("gltf", of("gltf", OWN["gltf"])).content)["materials"][0]
+    assert material["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] == 1.0
+
+
+@pytest.mark.parametrize(
+    "target, coat", [("openpbr", "coat_weight"), ("standard-surface", "coat"), ("gltf", "clearcoat")]
+)
+def test_a_mirror_beside_a_finite_part_becomes_a_coat(target, coat):
+    statement = exporters.export(target, of("lambertian+ggx+mirror", {"ggx.alpha": 0.3})).statement
+    assert statement.written[coat] > 0.4 and statement.rms_ln < 0.35
+    assert "mirror directions" in statement.over
+
+
+def test_both_readings_of_openpbr_are_told():
+    metal = of("ggx", {"alpha": 0.5, "n": 1.2, "k": 6.0})
+    [note] = exporters.export("openpbr", metal).statement.notes
+    assert float(note.rpartition(" ")[2]) > 0.05 and "light between facets" in note
+
+
+def test_of_several_candidates_the_target_gets_the_one_that_it_holds():
+    ward, ggx = of("ward", {"alpha": 0.2}), of("ggx", {"alpha": 0.2, "n": 1.2, "k": 6.0})
+    taken, made = exporters.held_best("standard-surface", [ward, ggx])
+    assert taken is ggx and made.statement.rms_ln < 0.05
+    assert "written of ggx" in made.statement.notes[-1]
+    assert exporters.held_best("standard-surface", [ggx, ward])[0] is ggx
+
+
+def test_flakes_under_a_coat_are_a_metallic_base_under_a_coat():
+    paint = of("coated:flakes", {"flakes.flake": 0.2, "flakes.tilt": 0.13})
+    statement = exporters.export("openpbr", paint).statement
+    assert statement.written["base_metalness"] == 1.0 and statement.written["coat_weight"] == 1.0
+    assert statement.status == "lossy" and "light is not bent" in statement.lost[-1]
+    high = float(statement.lost[-1].rpartition(" ")[2])
+    assert high < 0.3 < statement.rms_ln, "it holds them where neither light nor eye is low"
+
+
+def test_a_coats_mirror_is_not_given_up_for_a_better_number():
+    coated, bare = of("ggx+mirror", {"ggx.alpha": 0.2, "ggx.n": 0.5, "ggx.k": 2.4}), of("ggx", {"alpha": 0.2})
+    taken, made = exporters.held_best("openpbr", [coated, bare])
+    assert taken is coated and made.statement.written["coat_weight"] > 0.4
+    assert exporters.export("openpbr", bare).statement.rms_ln < made.statement.rms_ln
+
+
+def test_what_is_far_off_says_what_the_shader_lacks():
+    glossy = of("lambertian+ggx", {"ggx.alpha": 0.02, "lambertian.albedo": 0.8})
+    [why] = exporters.export("openpbr", glossy).statement.lost
+    assert "takes from the body" in why
+    [why] = exporters.export("gltf", of("mirror", {"n": 1.5})).statement.lost
+    assert "Schlick" in why
+
+
+def test_a_refusal_names_the_nearest_target_and_the_nearest_law_with_their_errors():
+    with pytest.raises(NoAnswer) as refused:
+        exporters.held_best("usd", [of("lambertian+ggx+mirror", {"ggx.alpha": 0.3})])
+    said = str(refused.value)
+    target, error = re.search(r"(\S+) as a material holds it to rms ln (\S+?);", said).groups()
+    held = exporters.export(target, of("lambertian+ggx+mirror", {"ggx.alpha": 0.3})).statement.rms_ln
+    assert float(error) == pytest.approx(held, rel=0.1) and held < 0.1
+    law, seen, error = re.search(r"that usd holds is (\S+): seen (\S+) L\* .* rms ln (\S+)$", said).groups()
+    assert law == "lambertian+ggx" and float(seen) > 2, "the mirror is seen to be missing"
+    assert float(error) < 1e-3, "its finite part is that law"
+
+
+@pytest.mark.parametrize(
+    "target, coat, index", [("openpbr", "coat_weight", "coat_ior"), ("standard-surface", "coat", "coat_ior")]
+)
+def test_a_coat_that_is_known_is_written_as_it_is(target, coat, index):
+    varnish = of("coated:lambertian", {"lambertian.albedo": [0.5, 0.2, 0.1], "coat.n": 1.45})
+    statement = exporters.export(target, varnish).statement
+    assert statement.written[coat] == 1.0 and statement.written["coat_ior"] == 1.45
+    assert statement.rms_ln < 0.16 and "light is not bent" in statement.lost[0]
+    assert float(statement.lost[0].rpartition(" ")[2]) < 0.08, "to 60 degrees"
+
+
+def test_a_rough_coat_over_flakes_stays_a_coat():
+    statement = exporters.export("openpbr", of("ggx+coated:flakes", {"ggx.alpha": 0.1})).statement
+    assert statement.written["coat_weight"] == 1.0 and statement.written["coat_roughness"] > 0.2
+    assert not any("become one" in each for each in statement.lost)

@@ -1,0 +1,34 @@
+"""What the judge says of kinds of data that practitioners have: a black dielectric, a white standard."""
+
+import numpy as np
+
+from brdfguide import fit, models
+from brdfguide.data.measurement import Measurement
+from brdfguide.models.surface import Surface
+from brdfguide.physics.geometry import in_plane, rows
+
+SCAN_I, SCAN_R = (
+    each.ravel() for each in np.meshgrid(np.arange(5.0, 76.0, 14.0), np.arange(-75.0, 76.0, 5.0), indexing="ij")
+)
+GEOM = rows(in_plane(SCAN_I, SCAN_R))
+
+
+def test_a_black_dielectric_whose_kind_cannot_be_told_is_not_answered_by_a_metal_seed_6():
+    """Beckmann 0.32, n 1.42, albedo 0.023, and an error of each scan that is smooth and reaches 25 %."""
+    random = np.random.default_rng(6)
+    values = {"lambertian.albedo": 0.023, "beckmann.alpha": 0.32, "beckmann.n": 1.42}
+    true = Surface(models.get("lambertian+beckmann"), values, ("550 nm",)).brdf(GEOM)[:, 0]
+    scan = np.round((SCAN_I - 5) / 14).astype(int)
+    phase, rate = random.uniform(0, 6.3, 6)[scan], random.uniform(1, 2, 6)[scan]
+    smooth = 0.25 * np.sin(phase + rate * np.radians(SCAN_R))
+    noise = 0.01 * random.standard_normal(len(SCAN_I))
+    answer = fit(Measurement(GEOM, (true * np.exp(smooth + noise))[:, None], ("550 nm",)), anyway=True)
+    assert answer.judged.known is None
+    assert "metal" not in answer.recommended.name
+
+
+def test_a_white_standard_is_a_body_alone_seed_16():
+    noise = 0.01 * np.random.default_rng(16).standard_normal((len(SCAN_I), 1))
+    answer = fit(Measurement(GEOM, 0.95 / np.pi * np.exp(noise), ("550 nm",)))
+    assert answer.recommended.name == "lambertian" and answer.recommended.rms_ln < 0.012
+    assert answer.document["ranking"][0]["candidate"] == "lambertian", "the recommended row is the first"

@@ -1,0 +1,132 @@
+"""A search finds a grain whatever its axis, says where there is none, and needs a law with one only where it shows."""
+
+import numpy as np
+import pytest
+
+from brdfguide import models
+from brdfguide.data.measurement import Measurement
+from brdfguide.fitting import fit as fitting
+from brdfguide.fitting import grain_walk
+from brdfguide.fitting.compare import compare
+from brdfguide.fitting.fit import FitOptions
+from brdfguide.fitting.job import Job, case_of
+from brdfguide.fitting.layout import Layout
+from brdfguide.fitting.next_measurement import turns_wanted
+from brdfguide.fitting.objective import Misfit, metric
+from brdfguide.models.candidates import Grained, with_grain
+
+from ..data.test_rotation import scans
+
+TURNS = [0.0, 30, 60, 90, 120, 150]
+
+
+def free(name):
+    return with_grain(models.get(name), Grained())
+
+
+@pytest.mark.parametrize("axis", [1.0, 44.0, 91.0, 179.5])
+def test_the_axis_is_found_whatever_it_is(axis):
+    values = {"alpha_x": 0.3, "alpha_y": 0.075, "axis": np.radians(axis)}
+    found = fitting.fit(free("ggx-aniso"), scans("ggx-aniso", TURNS, seed=91, **values))
+    off = np.remainder(np.degrees(found.values["ggx-aniso.axis"]) - axis + 90, 180) - 90
+    assert abs(off) < 3 * np.degrees(found.stderr["ggx-aniso.axis"]) + 0.01 < 1.0
+    for name in ("alpha_x", "alpha_y"):
+        assert abs(found.values[f"ggx-aniso.{name}"] - values[name]) < 4 * found.stderr[f"ggx-aniso.{name}"]
+    assert not {"at-bound", "axis-undetermined"} & {each.code for each in found.warnings}
+
+
+@pytest.mark.parametrize("name", ["he-torrance-aniso", "ashikhmin-shirley", "stam", "ward-aniso"])
+def test_other_grains_are_found_as_well(name):
+    law = models.term(name)
+    pin = next(each for each in law.pins if "axis" in each.values)
+    truth = law.defaults() | dict(pin.values)
+    measurement = scans("ggx", TURNS, alpha=0.2)
+    brdf = law(measurement.geom, **truth)
+    data = Measurement(measurement.geom, np.where(brdf > 1e-8 * brdf.max(), brdf, np.nan))
+    found = fitting.fit(free(name), data)
+    assert found.rms_ln < 1e-3
+    off = np.remainder(found.values[f"{name}.axis"] - truth["axis"] + np.pi / 2, np.pi) - np.pi / 2
+    assert abs(off) < 1e-3
+
+
+def test_slopes_by_the_walk_are_those_of_differences():
+    layout = Layout(free("ggx-aniso"), 1).walking()
+    data = scans("ggx-aniso", TURNS, alpha_x=0.2, alpha_y=0.1)
+    misfit = Misfit(layout, data, metric("ln"), np.ones_like(data.brdf))
+    for q1, q2 in ((0.9, 0.4), (-0.3, 1.1), (1e-3, 0.0)):
+        at = layout.encode({"ggx-aniso.alpha_x": 0.2, "ggx-aniso.alpha_y": 0.1, "ggx-aniso.n": 4.0})
+        places = [layout.shared.index(f"ggx-aniso.{key}") for key in ("alpha_x", "alpha_y", "axis")]
+        at[0][places] = -1.5, q1, q2
+        _, shared, _ = misfit(*at, True)
+        for place in places:
+            ends = []
+            for step in (1e-5, -1e-5):
+                moved = at[0].copy()
+                moved[place] += step
+                ends.append(misfit(moved, at[1], False))
+            np.testing.assert_allclose(np.ravel(shared[..., place]), np.ravel((ends[0] - ends[1]) / 2e-5), atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("name", "given"), [("ggx-aniso", (0.3, 0.1)), ("stam", (0.1, 3.0)), ("ashikhmin-shirley", (20.0, 300.0))]
+)
+def test_the_walk_goes_there_and_back(name, given):
+    grain = models.term(name).grain
+    back = grain_walk.parameters_of(grain, *grain_walk.walk_of(grain, *given, 1.0))
+    assert back == pytest.approx((*given, 1.0), rel=1e-12)
+
+
+def test_a_round_sample_has_no_axis_and_its_law_no_grain():
+    measurement = scans("ggx", TURNS, seed=92, alpha=0.2)
+    found = fitting.fit(free("ggx-aniso"), measurement)
+    assert found.has("axis-undetermined", "ggx-aniso.axis")
+    case = case_of(measurement, Job())
+    names = [each.name for each in case.candidates]
+    assert "ggx" in names and "ggx-aniso" in names
+    ranked = compare(measurement, [each for each in case.candidates if each.name in ("ggx", "ggx-aniso")])
+    assert ranked.recommended.fit.name == "ggx (metal)"
+
+
+def test_laws_with_a_grain_are_candidates_where_the_sample_was_turned_only():
+    def names(measurement):
+        return {each.name for each in case_of(measurement, Job()).candidates}
+
+    grained = {"ggx-aniso", "beckmann-aniso", "ward-gmd-aniso", "he-torrance-aniso"}
+    assert grained <= names(scans("ggx", TURNS, alpha=0.2))
+    assert not grained & names(scans("ggx", [0.0], alpha=0.2))
+    assert grained <= names(scans("beckmann-aniso", [0.0], alpha_x=0.3, alpha_y=0.06))  # too high for its width
+
+
+def test_of_two_turns_the_axis_is_held_where_the_lobe_is_wider():
+    measurement = scans("ggx-aniso", [0.0, 90.0], seed=93, alpha_x=0.08, alpha_y=0.3, axis=0.0)
+    case = case_of(measurement, Job(models=("ggx-aniso",)))
+    assert case.candidates[0].fixed["ggx-aniso.axis"] == pytest.approx(np.pi / 2)
+    found = fitting.fit(case.candidates[0], measurement, FitOptions())
+    assert found.values["ggx-aniso.alpha_x"] == pytest.approx(0.3, rel=0.05)
+    assert found.values["ggx-aniso.alpha_y"] == pytest.approx(0.08, rel=0.05)
+
+
+def test_one_scan_that_is_too_high_holds_the_metal_and_gives_the_width_along_the_grain():
+    measurement = scans("beckmann-aniso", [0.0], seed=94, alpha_x=0.3, alpha_y=0.06)
+    case = case_of(measurement, Job())
+    assert not any(key.endswith(".k") for each in case.candidates for key in each.free)
+    one = next(each for each in case.candidates if each.name == "beckmann-aniso")
+    found = fitting.fit(one, measurement)
+    assert found.values["beckmann-aniso.alpha_x"] == pytest.approx(0.3, rel=0.03)
+    assert found.values["beckmann-aniso.alpha_y"] == pytest.approx(0.06, rel=0.25)  # F is 0.8 there, and was 0.92
+
+
+def test_where_the_grain_is_not_told_the_next_scan_is_of_the_turned_sample():
+    one = scans("beckmann-aniso", [0.0], alpha_x=0.3, alpha_y=0.06)
+    assert turns_wanted(one) == (90.0, 45.0)
+    two = scans("ggx-aniso", [0.0, 90.0], alpha_x=0.3, alpha_y=0.06)
+    assert turns_wanted(two) == (45.0,)
+    assert turns_wanted(scans("ggx", [0.0], alpha=0.2)) == () == turns_wanted(scans("ggx", TURNS, alpha=0.2))
+
+
+@pytest.mark.parametrize("name", ["ggx-aniso", "beckmann-aniso", "ward-gmd-aniso"])
+def test_without_its_grain_a_law_is_its_parent_of_the_mean_width(name):
+    law, geom = models.term(name), scans("ggx", [20.0], alpha=0.2).geom
+    bare = law.without["anisotropy"](geom, **law.defaults() | {"alpha_x": 0.4, "alpha_y": 0.1, "axis": 0.7})
+    parent = models.term(name.removesuffix("-aniso"))(geom, alpha=0.2)
+    np.testing.assert_allclose(bare, parent, rtol=1e-12)

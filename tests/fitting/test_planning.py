@@ -1,0 +1,175 @@
+"""Plans of measurements: they promise what comes true, keep to the instrument, and begin as `fit --next` does."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from brdfguide import models
+from brdfguide.errors import InputError
+from brdfguide.fitting import fit as fitting
+from brdfguide.fitting import goniometer, hypotheses, next_measurement, planning, ranking
+from brdfguide.fitting.fit import ln_residuals
+from brdfguide.report.documents.plan import plan_document, plan_table
+from brdfguide.report.figures import style
+from brdfguide.report.figures.plan import plan_figure
+from brdfguide.report.text.plan import plan_text
+
+from .. import synthetic
+from ..conftest import ROOT
+
+GGX = models.get("lambertian+ggx")
+TRUTH = {**models.get("lambertian+student-t").defaults(), "lambertian.albedo": 0.3, "student-t.alpha": 0.2}
+
+
+@pytest.fixture(scope="module")
+def blind():
+    return planning.plan_everywhere(goniometer.hemisphere(80.0), goniometer.Goniometer(), hypotheses.unknown(), 16)
+
+
+def error_everywhere(geom, everywhere) -> float:
+    """Of GGX, fitted to a surface that it is not, at some directions."""
+    model = models.get("lambertian+student-t")
+    few = synthetic.surface(model, geom, {**TRUTH, "student-t.g": 4.0})
+    every = synthetic.surface(model, everywhere, {**TRUTH, "student-t.g": 4.0})
+    found = fitting.fit(GGX, few)
+    return float(np.sqrt(np.mean(ln_residuals(found.surface, every) ** 2)))
+
+
+def test_sixteen_directions_serve_nearly_as_well_as_all_and_better_than_random_ones_with_seed_4(blind):
+    everywhere, weights = goniometer.hemisphere(80.0)
+    random = np.random.default_rng(4)
+    drawn = everywhere[random.choice(len(weights), 3000, p=weights)]
+    whole = error_everywhere(drawn, drawn)
+    planned = error_everywhere(blind.geom, drawn) / whole
+    chance = [error_everywhere(drawn[random.choice(3000, 16)], drawn) / whole for _ in range(9)]
+    assert planned < 1.1 and planned < np.median(chance)
+
+
+def test_what_is_expected_falls_from_block_to_block(blind):
+    first, second = blind.blocks
+    assert first.before is None and second.before == first.after and 1 < second.after < first.after < 1.2
+    assert len(first.geom) == len(second.geom) == planning.BLOCK and len(blind.geom) == 16
+
+
+def test_it_keeps_to_what_the_instrument_reaches():
+    reach = goniometer.Goniometer(60.0, in_plane=True, value_s=2.0, move_s=30.0)
+    plan = planning.plan_everywhere(goniometer.hemisphere(80.0), reach, hypotheses.unknown()[::6], 12)
+    assert np.all(reach.reaches(plan.geom)) and np.all(plan.geom.off_plane_deg < 0.1)
+    assert np.max(plan.geom.theta_i_deg) <= 60 and plan.seconds >= 12 * 2 + 2 * 30
+    with pytest.raises(InputError, match="reaches 1[0-9]* scans of those that are offered; wanted at least the 50"):
+        planning.plan_everywhere(goniometer.hemisphere(80.0), reach, hypotheses.unknown()[:2], 50, scans=True)
+
+
+def test_whole_scans_come_with_their_angles_and_the_best_first():
+    reach = goniometer.Goniometer(in_plane=True, step_deg=10.0)
+    plan = planning.plan_everywhere(goniometer.hemisphere(80.0), reach, hypotheses.unknown()[::6], 3, scans=True)
+    assert [len(each.scans) for each in plan.blocks] == [1, 1, 1]
+    after = [each.after for each in plan.blocks]
+    assert after == sorted(after, reverse=True)
+    text = plan_text(plan_document(plan, timed=False))
+    assert text.count("in the plane of incidence, theta_r -80 to 80 deg") >= 1
+
+
+def tied():
+    """GGX and Cook and Torrance's facets, which scans near the normal do not tell apart."""
+    cook = models.get("lambertian+cook-torrance")
+    data = synthetic.surface(
+        GGX, synthetic.scan((10, 20)), {"lambertian.albedo": 0.3, "ggx.alpha": 0.22, "ggx.n": 1.5}, noise=0.05, seed=2
+    )
+    data = data[np.abs(data.geom.signed_theta_r_deg[:, 0]) <= 30]
+    return ranking.rank(fitting.fit_all([GGX, cook], data), data), data
+
+
+def test_the_first_direction_that_tells_is_the_one_that_next_names():
+    ranked, data = tied()
+    reach = goniometer.Goniometer(85.0)
+    plan = planning.plan_to_tell(ranked, data, reach, 1)
+    first = next_measurement.propose(ranked, data).directions[0]
+    geom = plan.geom
+    assert [geom.theta_i_deg[0, 0], geom.theta_r_deg[0, 0]] == pytest.approx([first.theta_i_deg, first.theta_r_deg])
+    assert plan.blocks[0].after == pytest.approx(first.gain)
+    more = planning.plan_to_tell(ranked, data, reach, 12)
+    assert more.blocks[1].after > more.blocks[0].after > first.gain
+    alone = replace(ranked, rows=ranked.rows[:1])
+    with pytest.raises(InputError, match="no two models tie"):
+        planning.plan_to_tell(alone, data, reach, 4)
+
+
+def test_pinning_leaves_less_with_every_direction_and_a_whole_scan_is_named_where_one_does_little():
+    data = synthetic.surface(GGX, synthetic.scan(), {"lambertian.albedo": 0.3, "ggx.alpha": 0.2}, noise=0.05, seed=1)
+    ranked = ranking.rank(fitting.fit_all([GGX], data), data)
+    plan = planning.plan_to_pin(ranked, data, goniometer.Goniometer(85.0), 10)
+    first = next_measurement.propose(ranked, data)
+    assert plan.subject == first.subject and first.purpose == "pin" and not first.narrows
+    assert plan.blocks[1].after < plan.blocks[0].after <= first.directions[0].gain
+    assert first.scans[0].gain < first.directions[0].gain and first.scans[0].gain <= first.scans[-1].gain
+
+
+def test_data_that_are_there_count():
+    ranked, data = tied()
+    known = hypotheses.after(ranked)
+    target, reach = goniometer.hemisphere(80.0), goniometer.Goniometer()
+    plan = planning.plan_everywhere(target, reach, known, 8, measured=planning.measured_part(data))
+    (block,) = plan.blocks
+    assert plan.measured == len(data.geom) and block.before > 1.1 > block.after
+    assert np.median(block.geom.theta_i_deg) > 30  # where nothing was measured yet
+
+
+def test_data_of_several_channels_count_as_well():
+    colours = synthetic.surface(GGX, synthetic.scan((20, 60)), {"ggx.alpha": 0.2}, noise=0.03, channels=3)
+    ranked = ranking.rank(fitting.fit_all([GGX], colours), colours)
+    known = hypotheses.after(ranked)
+    assert len(known) == len(hypotheses.AROUND) and len({each.surface.values["ggx.alpha"] for each in known}) == 3
+    assert all(each.layout.channels == len(each.surface.channels) == 1 for each in known)
+
+
+def test_the_table_is_taken_back_once_its_values_are_there(tmp_path, blind):
+    document = plan_document(blind, timed=False)
+    lines = plan_table(document).splitlines()
+    filled = [line + "0.2" if line.endswith(",") else line for line in lines]
+    (tmp_path / "plan.csv").write_text("\n".join(filled))
+    from brdfguide.data import formats
+
+    back = formats.read(tmp_path / "plan.csv")
+    assert len(back.brdf) == 16 and not back.in_plane
+    assert np.allclose(np.sort(back.geom.theta_i_deg[:, 0]), np.sort(blind.geom.theta_i_deg[:, 0]))
+    assert np.sum(back.geom.vxy2) == pytest.approx(np.sum(blind.geom.vxy2))
+
+
+def test_the_picture_shows_every_direction(blind):
+    document = plan_document(blind, timed=True)
+    with style.look():
+        axes = plan_figure(document).axes
+        drawn = sum(len(line.get_xdata()) for axis in axes[:-1] for line in axis.lines if line.get_markersize() == 4.2)
+    assert drawn == 16
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--purpose", "tell"], "without --after no model is tied"),
+        (["--budget", "0"], "--budget 0: wanted 1 to 512"),
+        (["--purpose", "tel"], "no purpose called 'tel'"),
+        (["--step-deg", "2"], "--step-deg: it is the step of --scans"),
+        (["--theta-max", "95"], "angles up to 95 degrees: wanted 10 to 89"),
+        (["--after", "examples/white_paper.csv", "porcelain"], "the data of --after say more"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(words, sentence):
+    run = subprocess.run([sys.executable, "-m", "brdfguide", "plan", *words], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 2 and sentence in run.stderr
+
+
+def test_a_scene_asks_for_its_own_directions():
+    run = subprocess.run(
+        [sys.executable, "-m", "brdfguide", "plan", "porcelain", "--scene", "default", "--budget", "4", "--json"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+    document = json.loads(run.stdout)
+    assert document["schema"] == "brdfguide/plan/1" and document["directions"] == 4

@@ -1,0 +1,82 @@
+"""Of models that the data leave equal, none is recommended that contradicts what else is known of the surface."""
+
+from dataclasses import replace
+
+from brdfguide.finding import Finding
+from brdfguide.fitting.choosing import picked
+from brdfguide.fitting.fit import Fit
+from brdfguide.fitting.ranked import HeldOut, Row
+from brdfguide.models import candidates
+from brdfguide.models.surface import Surface
+
+
+def row(name: str, error: float, free: int, *, tied=True, rise: float = 10.0, measured: float = 10.0) -> Row:
+    model = candidates.named(name)
+    fit = Fit(Surface(model, {}, ("550 nm",)), {}, None, error, free, 1, 0.0, True)
+    growth = {"r_mirror": rise, "r_mirror_data": measured}
+    return Row(fit, 1, tied, error, {}, {"ln": error, "seen": 1.0}, 0.0, 0.0, 1.0, 10.0 * free, True, growth=growth)
+
+
+def test_a_dielectric_is_not_answered_by_a_lobe_without_fresnel():
+    rows = (row("lambertian+ggx", 0.1, 4), row("lambertian+phong", 0.101, 3))
+    assert picked(rows, kind=None)[0] is rows[1]
+    pick, because = picked(rows, kind="dielectric")
+    assert pick is rows[0] and "lambertian+phong has no Fresnel factor" in because
+
+
+def test_a_body_alone_is_no_lobe_without_fresnel():
+    rows = (row("lambertian+ggx", 0.1, 3), row("lambertian", 0.101, 1))
+    assert picked(rows, kind="dielectric")[0] is rows[1]
+
+
+def test_light_sent_back_needs_no_fresnel_beside_a_lobe_that_has_it():
+    rows = (row("lambertian+ggx+retro", 0.1, 3), row("lambertian+beckmann", 0.101, 4))
+    assert picked(rows, kind="dielectric")[0] is rows[0]
+
+
+def test_of_ties_one_that_errs_more_at_angles_left_out_is_passed_over_if_it_is_systematically_off():
+    def held(one, error):
+        return replace(one, held_out=HeldOut(error, error, 70.0))
+
+    off = Finding("discrepancy", "systematically off", "warning")
+    best, simple = held(row("lambertian+ggx:2", 0.1, 6), 0.20), held(row("lambertian+ggx", 0.11, 3), 0.21)
+    assert picked((best, simple))[0] is simple  # its misfit is noise
+    wrong = replace(simple, fit=replace(simple.fit, warnings=(off,)))
+    pick, because = picked((best, wrong))
+    assert pick is best and "lambertian+ggx has more error at angles left out" in because
+    as_good = held(wrong, 0.205)
+    assert picked((best, as_good))[0] is as_good
+
+
+def test_what_looks_alike_is_taken_only_if_it_is_simpler():
+    best = row("lambertian+student-t", 0.1, 20)
+    alike = {free: replace(row("lambertian+ggx", 0.11, free, tied=False), close=True, work=1.0) for free in (18, 19)}
+    assert picked((best, alike[18]), "look")[0] is alike[18]
+    assert picked((best, alike[19]), "look")[0] is best
+
+
+def test_a_stand_in_with_fresnel_is_taken_for_a_best_without():
+    rows = (row("lambertian+phong", 0.1, 3), replace(row("lambertian+ggx", 0.11, 3, tied=False), close=True))
+    assert picked(rows, "look", "dielectric")[0] is rows[1]
+
+
+def test_a_metal_is_no_simpler_dielectric():
+    rows = (row("lambertian+ggx", 0.1, 3), row("ggx (metal)", 0.101, 2))
+    pick, because = picked(rows, kind=None)
+    assert pick is rows[0] and "ggx (metal) has another kind of surface, which these data leave open" in because
+    assert picked(rows, kind="metal")[0] is rows[1]
+
+
+def test_a_growth_far_from_the_data_s_loses_to_one_that_is_near():
+    rows = (row("lambertian+ggx", 0.1, 3, rise=14.0), row("lambertian+beckmann", 0.101, 2, rise=26.0))
+    assert picked(rows)[0] is rows[0]
+    nobody_near = (row("lambertian+ggx", 0.1, 3, rise=30.0), row("lambertian+beckmann", 0.101, 2, rise=40.0))
+    assert picked(nobody_near)[0] is nobody_near[1]
+
+
+def test_a_parameter_at_its_bound_loses_to_one_inside():
+    at_bound = Finding("at-bound", "at its high bound", "warning", subject="ggx.n")
+    stuck = row("lambertian+ggx", 0.101, 2)
+    stuck = replace(stuck, fit=replace(stuck.fit, warnings=(at_bound,)))
+    inside = row("lambertian+beckmann", 0.1, 3)
+    assert picked((inside, stuck))[0] is inside

@@ -1,0 +1,96 @@
+"""The documentation is true: what it shows is what an installed program prints, its commands and links exist, and the
+pages that are made of tables are those of today.
+"""
+
+import json
+import re
+import subprocess
+import sys
+
+import pytest
+from typer.main import get_command
+
+from brdfguide import catalog
+from brdfguide.cli import _pages
+from brdfguide.cli._app import build
+
+from . import transcripts
+from .conftest import ROOT
+
+COMMAND = re.compile(r"\bbrdfguide ((?:[a-z]+|--[a-z]+)\b[^`|>;&\n]*)")
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+
+
+@pytest.mark.parametrize("page", transcripts.SHOWN, ids=lambda page: page.name)
+def test_a_page_prints_what_an_installed_program_prints(page, package, tmp_path):
+    """In an empty folder, after `examples`; numbers to the last printed digits."""
+    bin_ = str(package.bin)
+    if page.name == "README.md":
+        transcripts.run("brdfguide examples examples", tmp_path, bin_)
+    for command, shown in transcripts.commands(page):
+        done = transcripts.run(command, tmp_path, bin_)
+        assert done.returncode == 0, f"{command}\n{done.stderr}"
+        line = transcripts.missing(done.stdout, shown)
+        assert line is None, f"{command}: the page shows {line!r}; the program says\n{done.stdout}"
+
+
+@pytest.fixture(scope="module")
+def options():
+    """Command -> the names of its options."""
+    group = get_command(build(catalog.names("cli")))
+    found = {name: {n for each in command.params for n in each.opts} for name, command in group.commands.items()}
+    return {name: names | {"-h", "--help", "-"} for name, names in found.items()}
+
+
+@pytest.mark.parametrize("page", transcripts.PAGES, ids=lambda page: page.name)
+def test_every_command_that_is_written_anywhere_exists_with_its_options(page, options):
+    for typed in COMMAND.findall(page.read_text()):
+        words = typed.split()
+        if words[0].startswith("-"):
+            assert words[0] in ("--explain", "--version", "--help", "--install-completion"), typed
+        elif words[0] in options or len(words) > 1 and words[1].startswith("-"):
+            assert words[0] in options, typed
+            wrong = [w for w in words[1:] if w.startswith("-") and w[1:2].isalpha() | w.startswith("--")]
+            names = [w.partition("=")[0].rstrip(".,:)'\"") for w in wrong]
+            assert [name for name in names if name not in options[words[0]]] == [], typed
+
+
+@pytest.mark.parametrize("page", transcripts.PAGES, ids=lambda page: page.name)
+def test_every_link_leads_somewhere(page):
+    for target in LINK.findall(page.read_text()):
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
+
+
+@pytest.mark.parametrize("name", sorted(_pages.NAMES))
+def test_a_page_of_tables_is_that_of_today(name):
+    kept = (ROOT / "docs" / name).read_text(encoding="utf-8")
+    assert kept == _pages.reference_page(name), "python -m brdfguide.cli._pages docs"
+
+
+def test_the_reference_pages_are_complete():
+    """Each command, law, rule and format has its entry: they are made of the catalogues, which know them all."""
+    commands, laws = ((ROOT / "docs" / "reference" / f"{name}.md").read_text() for name in ("commands", "models"))
+    assert all(f"\n## {name}\n" in commands for name in catalog.names("cli"))
+    assert all(f"\n## {name}\n" in laws for name in catalog.names("models"))
+
+
+def test_the_site_is_built(tmp_path):
+    pytest.importorskip("mkdocs")
+    command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "for_artists" / "index.html").exists() and (tmp_path / "reference" / "models").is_dir()
+
+
+def test_the_notebook_does_what_it_says(tmp_path, monkeypatch):
+    """Its cells one after another, in an empty folder."""
+    notebook = json.loads((ROOT / "docs" / "notebook.ipynb").read_text())
+    source = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert len(source) > 6 and notebook["nbformat"] == 4
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))  # of the program that the first cell starts
+    names: dict = {}
+    for cell in source:
+        exec(compile(cell, "notebook.ipynb", "exec"), names)
+    assert names["answer"].document["trustworthy"] and (tmp_path / "mug.mtlx").stat().st_size > 100

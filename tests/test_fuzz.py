@@ -1,0 +1,100 @@
+"""The fuzz harness sees what it should: a planted error of each kind, the same case again, and nothing else today."""
+
+import subprocess
+import sys
+import time
+
+import pytest
+
+from brdfguide.data import formats
+
+from .conftest import ROOT
+
+FOLDER = ROOT / "benchmarks" / "fuzz"
+
+
+@pytest.fixture
+def fuzz(monkeypatch, tmp_path):
+    """The harness' modules, in a folder of their own."""
+    monkeypatch.syspath_prepend(str(FOLDER))
+    monkeypatch.chdir(tmp_path)
+    import run
+    import tries
+
+    tries.furnished(tmp_path)
+    return run, tries
+
+
+def test_a_case_is_the_same_again(fuzz):
+    _, tries = fuzz
+    for target in ("table", "rgl", "fit-json", "description", "options"):
+        assert [tries.case(target, 1, index) for index in range(5)] == [
+            tries.case(target, 1, index) for index in range(5)
+        ]
+
+
+def test_every_reader_has_cases_and_some_of_them_are_read(fuzz):
+    _, tries = fuzz
+    assert set(formats.names()) <= {target.replace("_", "-") for target in tries.TARGETS}
+    for target in tries.TARGETS:
+        outcomes = [tries.case(target, 4, index) for index in range(2 if target == "merl" else 15)]
+        assert target == "merl" or any(each.outcome == "answered" for each in outcomes), target
+        assert {each.outcome for each in outcomes} <= {"answered", "refused"}, (target, outcomes)
+
+
+@pytest.mark.parametrize(
+    "planted, outcome",
+    [(ZeroDivisionError("x"), "traceback"), (RuntimeWarning("x"), "warning"), (MemoryError(), "traceback")],
+)
+def test_a_planted_error_is_seen(fuzz, monkeypatch, planted, outcome):
+    _, tries = fuzz
+
+    def broken(*_, **__):
+        raise planted
+
+    monkeypatch.setattr(formats, "read", broken)
+    found = tries.case("table", 1, 0)
+    assert found.outcome == outcome and type(planted).__name__ in found.detail
+
+
+def test_a_sentence_that_acts_or_has_no_end_is_seen(fuzz, monkeypatch):
+    from brdfguide.errors import InputError
+
+    _, tries = fuzz
+
+    class Raw(InputError):
+        def __str__(self):
+            return self.args[0]
+
+    for text in ("\x1b[31m", "x" * 5000):
+
+        def broken(*_, said=text, **__):
+            raise Raw(said)
+
+        monkeypatch.setattr(formats, "read", broken)
+        assert tries.case("table", 1, 0).outcome == "unfit"
+
+
+def test_a_hang_and_a_death_are_seen_and_the_next_case_is_tried(fuzz, monkeypatch):
+    import os
+
+    run, tries = fuzz
+    plan = {0: lambda: time.sleep(60), 1: lambda: os._exit(3), 2: lambda: None}
+
+    def case(target, seed, index):
+        plan.get(index, plan[2])()
+        return tries.Case("answered")
+
+    monkeypatch.setattr(tries, "case", case)
+    monkeypatch.setattr(run, "HANG_S", 1.0)
+    counts, _, _, failures = run.tried("table", 1, 3.0)
+    assert counts["hang"] == 1 and counts["died"] == 1 and counts["answered"] > 0
+    assert sorted(failures.values()) == ["table:1:0", "table:1:1"]
+
+
+def test_it_runs_from_anywhere_and_ends_with_a_line_for_each_target(tmp_path):
+    words = [sys.executable, str(FOLDER / "run.py"), "--minutes", "0.05", "--seed", "5", "--only", "scene,fit-json"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    lines = done.stdout.splitlines()
+    assert done.returncode == 0 and [line.split()[0] for line in lines] == ["seed", "target", "scene", "fit-json"]
+    assert int(lines[2].split()[1]) > 20 and not list(tmp_path.iterdir())

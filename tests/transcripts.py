@@ -1,0 +1,90 @@
+"""What the documentation shows as typed and printed: `python -m tests.transcripts` prints every block anew.
+
+In a block of the language `console` a line that starts with `$ ` is a command and the lines below it are what it prints
+on standard output; `...` stands for what was left out. The commands of a page run in one folder, in their order, beside
+`examples/`.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from .conftest import ROOT
+
+BLOCK = re.compile(r"```console\n(.*?)```", re.S)
+NUMBER = re.compile(r"\d+\.\d+")
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+SHOWN = [page for page in PAGES if BLOCK.search(page.read_text())]
+
+
+def commands(page: Path) -> Iterator[tuple[str, str]]:
+    """(command, what the page prints under it)."""
+    for block in BLOCK.findall(page.read_text()):
+        for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+            command, _, shown = part.partition("\n")
+            yield command, shown.strip("\n")
+
+
+def alike(said: str, shown: str) -> bool:
+    """The same words, and decimal numbers that agree to two units of the last digit: another NumPy may round
+    otherwise.
+    """
+    if NUMBER.sub("#", said) != NUMBER.sub("#", shown):
+        return False
+    pairs = zip(NUMBER.findall(said), NUMBER.findall(shown), strict=True)
+    return all(
+        len(a) == len(b) and abs(float(a) - float(b)) <= 2.001 * 10.0 ** -len(b.partition(".")[2]) for a, b in pairs
+    )
+
+
+def missing(printed: str, shown: str) -> str | None:
+    """The first line of the page that the program does not print in its place; None where all are there."""
+    said = [line.rstrip() for line in printed.splitlines()]
+    place = 0
+    for line in (line.rstrip() for line in shown.splitlines()):
+        if line == "...":
+            continue
+        found = next((at for at in range(place, len(said)) if alike(said[at], line)), None)
+        if found is None:
+            return line
+        place = found + 1
+    return None
+
+
+def run(command: str, folder: Path, path: str) -> subprocess.CompletedProcess:
+    """A shell line with `brdfguide` found on the path."""
+    environment = {**os.environ, "PATH": f"{path}{os.pathsep}{os.environ['PATH']}", "PYTHONUTF8": "1"}
+    return subprocess.run(
+        ["sh", "-c", command], cwd=folder, env=environment, capture_output=True, text=True, timeout=180
+    )
+
+
+def printed_anew(page: Path, path: str) -> str:
+    """The page with what its commands print now; where `...` stands it is left as it is."""
+    with TemporaryDirectory() as folder:
+        if page.name == "README.md":
+            run("brdfguide examples examples", Path(folder), path)
+
+        def block(found: re.Match) -> str:
+            parts = []
+            for part in re.split(r"^\$ ", found.group(1), flags=re.M)[1:]:
+                command, _, shown = part.partition("\n")
+                done = run(command, Path(folder), path)
+                assert done.returncode == 0, f"{page}: {command}: {done.stderr}"
+                parts.append(f"$ {command}\n{shown if '...' in shown.splitlines() else done.stdout}")
+            return "```console\n" + "".join(parts) + "```"
+
+        return BLOCK.sub(block, page.read_text())
+
+
+if __name__ == "__main__":
+    with TemporaryDirectory() as bin_folder:
+        program = Path(bin_folder, "brdfguide")
+        program.write_text(f'#!/bin/sh\nPYTHONPATH="{ROOT}" exec "{sys.executable}" -m brdfguide "$@"\n')
+        program.chmod(0o755)
+        for each in map(Path, sys.argv[1:]) if sys.argv[1:] else SHOWN:
+            each.write_text(printed_anew(each, bin_folder))
