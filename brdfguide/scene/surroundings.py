@@ -1,0 +1,192 @@
+"""Surroundings as radiance in closed form: a studio, an overcast sky, a room with a window, even light.
+
+Directions are of the world: z up, azimuth 0 the side that the surface faces (for a picture, the camera's), azimuth 90
+to the camera's right. Nothing here is an image: what a quadrature, pruning and a preview ask is one function of
+direction.
+
+    uniform    L = 1
+    overcast   L = Lz (1 + 2 sin γ)/3 above the horizon (CIE standard overcast sky, Moon and Spencer 1942: ISO 15469),
+               below it a ground that reflects a fifth of the 7π/9 Lz that fall on it
+    studio     a floor, a backdrop that darkens upward, and three soft boxes: the key, a strip and a rim light
+    room       a box of walls with one window; what the walls send is what the window, taken for a small source, gives
+               them, and an even part for light that went round
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import cos, pi, radians, sin, tan
+
+import numpy as np
+
+from ..numerics import sphere
+from ..physics import colour
+
+KINDS = ("uniform", "studio", "overcast", "room")
+GROUND_ALBEDO = 0.2  # of the ground under an overcast sky: grass and soil, ours
+EDGE = 0.02  # tangent over which a soft box fades: half a hand's breadth at two metres, ours
+# azimuth, elevation and half the width and height [deg] of the soft boxes, and how bright each is; ours
+SOFT_BOXES = ((-50.0, 42.0, 24.0, 18.0, 9.0), (68.0, 34.0, 8.0, 30.0, 4.5), (165.0, 38.0, 26.0, 9.0, 6.0))
+ROOM_LOW = np.array([-2.5, -2.0, -0.9])  # corners [m] from the object on its table: 5 by 4 by 2.7 m; ours
+ROOM_HIGH = np.array([2.5, 2.0, 1.8])
+WINDOW = ((-0.3, 1.5), (0.0, 1.4))  # its bounds along the wall and upward [m], in the wall at azimuth -90
+BAR = 0.035  # half the width [m] of the cross of its frame
+WALLS = {"wall": 0.6, "ceiling": 0.8, "floor": 0.25}  # diffuse reflectance: paint, white paint, wood; ours
+ROUND = 0.03  # radiance of light that went round a room, over the window's; ours
+TINTS = {
+    "neutral": (1.0, 1.0, 1.0),
+    "sky": (0.92, 1.0, 1.16),  # of linear sRGB, each scaled to luminance 1
+    "earth": (1.12, 0.98, 0.78),
+    "warm": (1.10, 0.98, 0.88),
+}
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Light from all around; `irradiance` is what falls on a surface that faces its brightest side, relative to the
+    lights of a scene."""
+
+    kind: str = "studio"
+    irradiance: float = 1.0
+    up_deg: tuple[float, float] = (0.0, 0.0)  # zenith angle and azimuth of upward, in the frame of the object
+    turn_deg: float = 0.0  # about upward
+
+    def rgb(self, directions) -> np.ndarray:
+        """Radiance (..., 3) in linear sRGB, of directions (..., 3) in the world; its luminance is `radiance`."""
+        directions = np.asarray(directions, float)
+        return self.radiance(directions)[..., None] * _tint_of(self.kind, directions)
+
+    def radiance(self, directions) -> np.ndarray:
+        """Radiance (...) [irradiance/sr] of white light, of unit directions (..., 3) in the world."""
+        return self.irradiance / _brightest_side(self.kind) * _FORMS[self.kind](np.asarray(directions))
+
+    @cached_property
+    def brightest(self) -> float:
+        """The greatest radiance of any direction, in the unit of `radiance`."""
+        return float(self.radiance(_all_directions()[0]).max())
+
+    @cached_property
+    def of_object(self) -> np.ndarray:
+        """(3, 3) that turns a direction of the object's frame into one of the world."""
+        theta, phi = (radians(angle) for angle in self.up_deg)
+        up = np.array([sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)])
+        # azimuth 0 is where the object's axis leans; of an object that stands upright, its own azimuth 0
+        front = np.array([0.0, 0.0, 1.0]) if sin(theta) > 1e-6 else np.array([1.0, 0.0, 0.0])
+        front = sphere.unit(front - (front @ up) * up)
+        turn = radians(self.turn_deg)
+        turned = np.array([[cos(turn), -sin(turn), 0.0], [sin(turn), cos(turn), 0.0], [0.0, 0.0, 1.0]])
+        return turned @ np.stack([front, np.cross(up, front), up])
+
+    def describe(self) -> str:
+        """What it is and how bright."""
+        name = {"uniform": "even light from all around", "overcast": "an overcast sky", "studio": "a studio"}
+        return f"{name.get(self.kind, 'a room with a window')}, {self.irradiance:g}"
+
+
+def _uniform(directions):
+    return np.ones(directions.shape[:-1])
+
+
+def _overcast(directions):
+    up = directions[..., 2]
+    return np.where(up >= 0, (1 + 2 * up) / 3, GROUND_ALBEDO * 7 / 9)
+
+
+def _studio(directions):
+    up = directions[..., 2]
+    floor = 0.15 + 0.4 * up**2  # lit by the boxes where it is near
+    level = np.where(up >= 0, 0.12 + 0.30 * np.exp(np.minimum(up, -up) / 0.35), floor)
+    for frame, half, bright in _soft_boxes():
+        level += bright * _soft_box(directions @ frame.astype(directions.dtype), half)
+    return level
+
+
+@lru_cache(maxsize=1)
+def _soft_boxes():
+    """Of each box the directions to its middle, across and along it as columns, half its sides and its brightness."""
+    found = []
+    for azimuth, elevation, wide, high, bright in SOFT_BOXES:
+        a, e = radians(azimuth), radians(elevation)
+        centre = [cos(e) * cos(a), cos(e) * sin(a), sin(e)]
+        along = [-sin(e) * cos(a), -sin(e) * sin(a), cos(e)]
+        found.append(
+            (np.array([centre, [-sin(a), cos(a), 0.0], along]).T, (tan(radians(wide)), tan(radians(high))), bright)
+        )
+    return found
+
+
+def _soft_box(place, half):
+    """0..1: a rectangle with soft edges that is a quarter darker at its corners, as a lamp behind a cloth makes it."""
+    ahead = np.maximum(place[..., 0], 1e-9)  # behind, nothing is within its sides
+    x, y = np.abs(place[..., 1]) / (half[0] * ahead), np.abs(place[..., 2]) / (half[1] * ahead)
+    inside = np.clip((1 - x) * (half[0] / EDGE) + 0.5, 0, 1) * np.clip((1 - y) * (half[1] / EDGE) + 0.5, 0, 1)
+    return inside * (1 - 0.125 * (np.minimum(x, 1) ** 2 + np.minimum(y, 1) ** 2))
+
+
+def _room(directions):
+    with np.errstate(divide="ignore"):
+        far = np.where(directions > 0, ROOM_HIGH, ROOM_LOW) / directions
+    side = np.argmin(np.where(np.isfinite(far), far, np.inf), axis=-1)
+    reach = np.take_along_axis(far, side[..., None], axis=-1)
+    place = directions * reach  # [m] where the line of sight meets a wall
+    (left, right), (sill, top) = WINDOW
+    at = np.array([(left + right) / 2, ROOM_LOW[1], (sill + top) / 2])
+    area = (right - left) * (top - sill)
+    from_window = place - at
+    distance2 = np.sum(from_window**2, axis=-1)
+    leaves = from_window[..., 1]  # times the cosine at the window
+    arrives = np.abs(np.take_along_axis(from_window, side[..., None], axis=-1)[..., 0])  # and at the wall
+    given = area * leaves * arrives / (distance2 + area / pi) ** 2
+    below = directions[..., 2] < 0
+    albedo = np.select([side < 2, below], [WALLS["wall"], WALLS["floor"]], WALLS["ceiling"])
+    level = albedo * (given / pi + ROUND)
+    pane = _pane(directions)
+    # the sky outside, an overcast one, above houses up to six degrees
+    outside = np.where(directions[..., 2] > sin(radians(6.0)), (1 + 2 * directions[..., 2]) / 1.8, 0.15)
+    return np.where(pane, outside, level)
+
+
+def _pane(directions):
+    """Whether a direction leads out of the window of the room: between its sides and past the bars of its frame."""
+    (left, right), (sill, top) = WINDOW
+    toward = np.minimum(directions[..., 1], -1e-9)
+    x, z = directions[..., 0] / toward * ROOM_LOW[1], directions[..., 2] / toward * ROOM_LOW[1]
+    between = (x > left) & (x < right) & (z > sill) & (z < top) & (directions[..., 1] < 0)
+    return between & (np.abs(x - (left + right) / 2) > BAR) & (np.abs(z - (sill + top) / 2) > BAR)
+
+
+_FORMS = {"uniform": _uniform, "overcast": _overcast, "studio": _studio, "room": _room}
+
+
+def _tint_of(kind: str, directions) -> np.ndarray:
+    """Linear sRGB (..., 3) of luminance 1: a cool sky, a warm floor, ground and walls."""
+    named = {name: np.array(tint) / (np.array(tint) @ colour.LUMINANCE) for name, tint in TINTS.items()}
+    if kind == "uniform":
+        return named["neutral"]
+    if kind == "studio":
+        return np.where(directions[..., 2:] >= 0, named["neutral"], named["warm"])
+    cool = _pane(directions) if kind == "room" else directions[..., 2] >= 0
+    return np.where(cool[..., None], named["sky"], named["earth" if kind == "overcast" else "warm"])
+
+
+@lru_cache(maxsize=1)
+def _all_directions(rows: int = 120) -> tuple[np.ndarray, float]:
+    """Directions all around that share the sphere evenly, and the solid angle of each."""
+    height = (np.arange(rows) + 0.5) / rows * 2 - 1
+    azimuth = (np.arange(2 * rows) + 0.5) * pi / rows
+    grid = sphere.from_angles(height[:, None], azimuth[None, :]).reshape(-1, 3)
+    return grid, 4 * pi / len(grid)
+
+
+@lru_cache(maxsize=len(KINDS))
+def _brightest_side(kind: str) -> float:
+    """The greatest irradiance that any plane receives, of what `_FORMS` gives."""
+    if kind == "uniform":
+        return pi
+    directions, share = _all_directions()
+    level = _FORMS[kind](directions) * share
+    best, received = np.array([0.0, 0.0, 1.0]), 0.0
+    for step in (1.0, 0.08):  # all sides, then those about the best
+        sides = np.concatenate([sphere.cap(best[None], step * pi, 200)[0], best[None]])
+        each = np.maximum(sides @ directions.T, 0.0) @ level
+        best, received = sides[np.argmax(each)], float(each.max())
+    return received
