@@ -1,7 +1,7 @@
 """How a fitted model behaves where it was not fitted: left-out angles and turns, toward grazing, imitated spikes."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -19,6 +19,7 @@ from ..physics.geometry import Geometry, in_plane, rows
 from . import starting_grid
 from .choosing import recommending
 from .fit import Fit, FitOptions
+from .followed import follow
 from .layout import Layout
 from .objective import Misfit, metric
 from .prepared import few_channels
@@ -50,15 +51,16 @@ def held_out_from(
         return None
     folds = _divided(used)
     layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
-    start = layout.encode(values)
+    misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
+    kept = np.array([fold.kept for fold in folds])
+    ends = follow(misfit, [layout.encode(values)] * len(folds), 1e-4, 20, kept)
     squares, counts, last = 0.0, 0, np.nan
-    for rest, inside in folds:
-        misfit = Misfit(layout, rest, metric(options.metric), np.ones_like(rest.brdf))
-        end = misfit.descend(start, 1e-4, most=20)
+    for end, fold in zip(ends, folds, strict=True):
+        inside = fold.inside
         residuals = ln_residuals(layout.surface(end.shared, end.per_channel, inside), inside)
         squares, counts = squares + np.nansum(residuals**2), counts + int(np.count_nonzero(np.isfinite(residuals)))
         last = float(np.sqrt(np.nanmean(residuals**2)))
-    highest = folds[-1][1]
+    highest = folds[-1].inside
     told = highest.clear.any(axis=1)
     return HeldOut(float(np.sqrt(squares / counts)), last, float(highest.geom.theta_i_deg[told].max()))
 
@@ -129,12 +131,20 @@ def thinned_surface(fit: Fit) -> Surface:
     return fit.surface.of_channels(few_channels(len(fit.surface.channels)))
 
 
+@dataclass(frozen=True, eq=False)
+class _Fold:
+    """What is kept, a mask (samples,), and what is held out."""
+
+    kept: np.ndarray
+    inside: Measurement
+
+
 @formed
-def _divided(measurement: Measurement) -> list[tuple[Measurement, Measurement]]:
-    """What is kept and what is held out, in turn; only groups with a value that is clear of the dark level."""
+def _divided(measurement: Measurement) -> list[_Fold]:
+    """Only groups with a value that is clear of the dark level, in turn."""
     clear = measurement.clear.any(axis=1)
     folds = [*_turned_folds(measurement), *_folds(measurement.geom.theta_i_deg[:, 0])]
-    return [(measurement[~inside], measurement[inside]) for inside in folds if np.any(clear & inside)]
+    return [_Fold(~inside, measurement[inside]) for inside in folds if np.any(clear & inside)]
 
 
 def _turned_folds(measurement: Measurement) -> list[np.ndarray]:

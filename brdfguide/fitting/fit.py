@@ -15,6 +15,7 @@ from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
 from . import drift, starting_grid, weights
 from .diagnostics import profile_intervals, sigma_bound, standard_errors, unnoticed_faults
+from .followed import follow
 from .layout import Layout
 from .objective import METRICS, metric
 from .prepared import Prepared, Subset, expecting, few_channels, prepare
@@ -333,8 +334,7 @@ class Given:
 
 def search(model: Composite, data: Prepared, options: FitOptions, given: Given = Given()) -> Search:
     """Follows the starts of a grid, or those given, and the user's, on few directions and channels."""
-    began = perf_counter()
-    few = data.search.measurement
+    began, few = perf_counter(), data.search.measurement
     layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
     narrow = replace(layout, channels=few.brdf.shape[1]).walking()
     misfit = data.search.misfit(narrow, metric(options.metric))
@@ -344,19 +344,19 @@ def search(model: Composite, data: Prepared, options: FitOptions, given: Given =
     ] or starting_grid.grid_starts(narrow, few)
     if users := _its(model, options.start):  # the rest as in the grid's best
         starts.append({**starting_grid.amplitudes_by_channel(narrow, few, {**starts[0], **users}), **users})
-    ahead = [misfit.descend(narrow.encode(start), 1e-5, WARM_UP_BUDGET) for start in starts]
-    evaluations, count = sum(end.evaluations for end in ahead), max(int(np.count_nonzero(few.weighed)), 1)
-    ahead = sorted(ahead, key=lambda end: end.cost)[: GIVEN_FOLLOWED if given.starts else None]
+    first = follow(misfit, [narrow.encode(start) for start in starts], 1e-5, WARM_UP_BUDGET)
+    count = max(int(np.count_nonzero(few.weighed)), 1)
+    ahead = sorted(first, key=lambda end: end.cost)[: GIVEN_FOLLOWED if given.starts else None]
     most = min(OUTRUN**2 * ahead[0].cost, given.worth**2 * count)
+    further = [place for place, end in enumerate(ahead) if not end.converged and end.cost <= most]
+    followed = follow(misfit, [(ahead[place].shared, ahead[place].per_channel) for place in further], 1e-5, 100)
     ends = []
-    for end in ahead:
-        if not end.converged and end.cost <= most:
-            end = misfit.descend((end.shared, end.per_channel), 1e-5, 100)
-            evaluations += end.evaluations
+    for end in (dict(enumerate(ahead)) | dict(zip(further, followed, strict=True))).values():
         at = end.shared, end.per_channel
         if narrow.walks:
             at = narrow.standing().encode(narrow.decode(*at))
         ends.append((*narrow.in_order(*at), float(np.sqrt(end.cost / count))))
+    evaluations = sum(end.evaluations for end in (*first, *followed))
     return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
 
 
@@ -366,7 +366,7 @@ def followed_on(searched: Search, data: Prepared, options: FitOptions) -> Search
     narrow = replace(searched.layout, channels=few.brdf.shape[1])
     misfit = data.search.misfit(narrow, metric(options.metric))
     count = max(int(np.count_nonzero(few.weighed)), 1)
-    found = [misfit.descend((shared, per_channel), 1e-5, 100) for shared, per_channel, _ in searched.ends]
+    found = follow(misfit, [(shared, per_channel) for shared, per_channel, _ in searched.ends], 1e-5, 100)
     ends = [
         (*narrow.in_order(end.shared, end.per_channel), float(np.sqrt(end.cost / count)))
         for end in sorted(found, key=lambda end: end.cost)

@@ -154,6 +154,16 @@ class Layout:
         )
         return values
 
+    def decode_all(self, shared, per_channel) -> dict:
+        """Of many surfaces: coordinates (surfaces, p) and (surfaces, channels, q) as values (surfaces, 1, 1), or
+        (surfaces, channels, 1) of those that each channel has; floats of what is not searched for. No walks."""
+        values = self.model.defaults()
+        for place, key in enumerate(self.shared):
+            values[key] = from_coordinate(self.parameters[key], shared[:, place, None, None])
+        for place, key in enumerate(self.per_channel):
+            values[key] = from_coordinate(self.parameters[key], per_channel[:, :, place, None])
+        return values
+
     def walked(self, slopes: dict, values: Mapping) -> dict:
         """Derivatives by the coordinates, from those by the coordinates of each parameter by itself."""
         for grain, keys in self.grains if self.walks else ():

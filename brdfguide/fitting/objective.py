@@ -71,7 +71,7 @@ def _generalised_slope(floor, f):
 
 @dataclass(frozen=True, eq=False)
 class Misfit:
-    """Weighted residuals of a sum against a measurement, as `levenberg.minimise` wants them."""
+    """Weighted residuals of a sum against a measurement, as `least_squares.minimise` wants them."""
 
     layout: Layout
     measurement: Measurement
@@ -84,9 +84,8 @@ class Misfit:
         noise = self.measurement.noise
         if self.metric.name != "ln" or noise is None or not noise.matters:
             return self.metric
-        return replace(
-            self.metric, scale=partial(_generalised, noise.floor), slope=partial(_generalised_slope, noise.floor)
-        )
+        floor = noise.floor[:, None]
+        return replace(self.metric, scale=partial(_generalised, floor), slope=partial(_generalised_slope, floor))
 
     @cached_property
     def _weighed(self):
@@ -95,14 +94,16 @@ class Misfit:
 
     @cached_property
     def _root_weights(self):
+        """(channels, samples): channel by channel, as laws are evaluated."""
         weights = np.where(self._weighed, self.weights, 0.0)
         geom = self.measurement.geom
-        return np.asfortranarray(np.sqrt(weights) * (geom.cos_i * geom.cos_r if self.metric.cosine else 1.0))
+        weights = np.sqrt(weights) * (geom.cos_i * geom.cos_r if self.metric.cosine else 1.0)
+        return np.ascontiguousarray(weights.T)
 
     @cached_property
     def _data(self):
-        """The measurement, a harmless 1 where there is none; in memory channel by channel, as laws are evaluated."""
-        return np.asfortranarray(np.where(self._weighed, self.measurement.brdf, 1.0))
+        """The measurement, a harmless 1 where there is none, (channels, samples)."""
+        return np.ascontiguousarray(np.where(self._weighed, self.measurement.brdf, 1.0).T)
 
     @cached_property
     def _scaled_data(self):
@@ -112,19 +113,28 @@ class Misfit:
         surface = self.layout.surface(shared, per_channel, self.measurement)
         if not want_jacobian:
             f = reading.reading(surface, self.measurement.instrument)
-            return self._residual(f if f.min() > SMALLEST else np.maximum(f, SMALLEST))
+            f = f.T
+            return self._residual(f if f.min() > SMALLEST else np.maximum(f, SMALLEST), self._root_weights).T
         f, slopes = reading.with_slopes(self.layout, surface, self.measurement.instrument)
-        least = f.min()
-        lit = f if least > SMALLEST else np.maximum(f, SMALLEST)
-        factor = self._root_weights * (1 / self._data if self.metric.relative else self._metric.slope(lit))
+        r, factor = self.residuals_and_factor(f.T)
+        stacked = self._stack(slopes, factor)
+        self.within_range(f, stacked)
+        return r.T, *np.split(np.swapaxes(stacked, 1, 2), [len(self.layout.shared)], axis=2)
+
+    def residuals_and_factor(self, f, kept=None):
+        """Residuals of f (..., channels, samples), and what makes slopes of f slopes of them; 0 where not `kept`."""
+        lit = f if f.min() > SMALLEST else np.maximum(f, SMALLEST)
+        root_weights = self._root_weights if kept is None else self._root_weights * kept
+        factor = root_weights * (1 / self._data if self.metric.relative else self._metric.slope(lit))
         if lit is not f and self._metric is METRICS["ln"]:  # a law that has underflowed has no slope left to follow
             factor = np.where(f > SMALLEST, factor, 0.0)
-        stacked = self._stack(slopes, factor)
-        if (
-            not least > 1 / STEEPEST
-        ):  # where the whole sum has underflowed, an amplitude's slope must not overflow when it is squared
-            np.clip(stacked, -STEEPEST, STEEPEST, out=stacked)
-        return self._residual(lit), *np.split(np.swapaxes(stacked, 1, 2), [len(self.layout.shared)], axis=2)
+        return self._residual(lit, root_weights), factor
+
+    @staticmethod
+    def within_range(f, slopes) -> None:
+        """Where a whole sum has underflowed, an amplitude's slope must not overflow when it is squared."""
+        if not np.min(f) > 1 / STEEPEST:
+            np.clip(slopes, -STEEPEST, STEEPEST, out=slopes)
 
     def descend(self, start, tolerance: float, most: int = 400) -> Minimum:
         """The minimum that lies downhill from a start (shared, per_channel)."""
@@ -134,14 +144,17 @@ class Misfit:
         bounds = {"low": low, "high": high, "per_channel_low": per_channel_low, "per_channel_high": per_channel_high}
         return least_squares.minimise(self, *start, **bounds, tolerance=tolerance, most=most)
 
-    def _residual(self, f):
+    def _residual(self, f, root_weights):
+        """Of f (..., channels, samples)."""
         scaled = f / self._data if self.metric.relative else self._metric.scale(f)
-        return self._root_weights * (scaled - self._scaled_data)
+        scaled = scaled - self._scaled_data
+        scaled *= root_weights
+        return scaled
 
     def _stack(self, slopes, factor):
         """(channels, parameters, samples) of d residual / d coordinate, the shared ones first."""
         keys = self.layout.shared + self.layout.per_channel
-        stacked = np.empty((factor.shape[1], len(keys), len(factor)))
+        stacked = np.empty((len(factor), len(keys), factor.shape[1]))
         for place, key in enumerate(keys):
-            np.multiply(slopes[key].T, factor.T, out=stacked[:, place])
+            np.multiply(slopes[key].T, factor, out=stacked[:, place])
         return stacked

@@ -77,13 +77,36 @@ def evaluate(surface: Surface, geom: Geometry) -> np.ndarray:
 
 
 def _finite_with_slopes(layout: Layout, surface: Surface, geom: Geometry) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """The finite part and its derivative with respect to each free coordinate, amplitudes taken out of the laws.
+    """The finite part and its derivative with respect to each free coordinate, (samples, channels)."""
+    geom = geom.at(surface.wavelength).channels_first
+    total, slopes = _terms_with_slopes(layout, _channels_first(surface.values), geom)
+    return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
+
+
+def many_with_slopes(layout: Layout, values: Mapping, instrument: Instrument):
+    """`reading` and its slopes for many surfaces of one model, at the wavelengths of the instrument's directions.
+
+    Takes  values (surfaces, 1, 1), or (surfaces, channels, 1) where each channel has its own; no mirror beam.
+    Gives  arrays that broadcast to (surfaces, channels, samples).
+    """
+    if instrument.solid_angle is None:
+        return _terms_with_slopes(layout, values, instrument.geom.channels_first)
+    total, slopes = 0.0, dict.fromkeys(layout.parameters, 0.0)
+    for weight, geom in instrument.views:
+        part, part_slopes = _terms_with_slopes(layout, values, geom.channels_first)
+        total = total + weight * part
+        slopes = {key: slope + weight * part_slopes[key] for key, slope in slopes.items()}
+    return total, slopes
+
+
+def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry):
+    """The finite part and its derivative with respect to each free coordinate, amplitudes taken out of the laws; in
+    what directions (1, samples), wavelengths (channels, 1) and values broadcast to.
 
     A law without an analytic gradient is differenced centrally in the coordinate of its parameter.
     """
     total: np.ndarray | float = 0.0
     slopes: dict[str, np.ndarray] = {}
-    geom, values = geom.at(surface.wavelength).channels_first, _channels_first(surface.values)
     for model, keys, free in layout.by_term:
         of_term = {name: values[key] for name, key in keys.items()}
         amplitude = model.amplitude
@@ -102,7 +125,7 @@ def _finite_with_slopes(layout: Layout, surface: Surface, geom: Geometry) -> tup
                 slopes_of_term[name] = height * _difference(model, geom, unit, parameter)
         for name, slope in slopes_of_term.items():  # a parameter that terms share has a slope through each of them
             slopes[keys[name]] = slopes[keys[name]] + slope if keys[name] in slopes else slope
-    return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
+    return total, slopes
 
 
 def _channels_first(values: Mapping) -> dict:

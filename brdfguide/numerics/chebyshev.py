@@ -68,6 +68,11 @@ def by_value(table: Callable[..., Callable], x, count: int, *parameters) -> list
     together = np.stack(np.broadcast_arrays(*parameters), axis=-1)
     shape = np.broadcast_shapes(np.shape(x), together.shape[:-1])
     x, found = np.broadcast_to(x, shape), [np.empty(shape) for _ in range(count)]
+    if len(shape) == together.ndim - 1 and together.size == len(together) * len(parameters):  # one for each first place
+        for place, values in enumerate(together.reshape(-1, len(parameters)).tolist()):
+            for whole, part in zip(found, table(*values)(x[place], count), strict=True):
+                whole[place] = part
+        return found
     for values in np.unique(together.reshape(-1, len(parameters)), axis=0):
         here = np.broadcast_to(np.all(together == values, axis=-1), shape)
         for whole, part in zip(found, table(*values.tolist())(x[here], count), strict=True):

@@ -59,19 +59,14 @@ class Directions(KeepsFormed):
 
     @classmethod
     def from_vectors(cls, i, r) -> "Directions":
-        """From unit vectors (..., 3) toward the light and toward the detector."""
+        """From unit vectors (..., 3) toward the light and toward the detector; azimuths, which hardly any law is
+        written in, are formed when they are asked for."""
         i, r = np.broadcast_arrays(np.asarray(i, float), np.asarray(r, float))
         (ix, iy, iz), (rx, ry, rz) = np.moveaxis(i, -1, 0), np.moveaxis(r, -1, 0)
-        phi_i = np.degrees(np.arctan2(iy, ix))
-        phi = np.degrees(np.arctan2(ix * ry - iy * rx, ix * rx + iy * ry))
-        normal = (ix == 0) & (iy == 0)
-        if np.any(normal):  # the detector alone says where a grain lies
-            phi_i = np.where(normal, 0.0, phi_i)
-            phi = np.where(normal, np.degrees(np.arctan2(ry, rx)), phi)
-        return cls(
-            iz, np.hypot(ix, iy), rz, np.hypot(rx, ry),
-            (ix + rx) ** 2 + (iy + ry) ** 2, ix * rx + iy * ry, iz - rz, phi_i, phi,
+        known = (
+            iz, np.hypot(ix, iy), rz, np.hypot(rx, ry), (ix + rx) ** 2 + (iy + ry) ** 2, ix * rx + iy * ry, iz - rz
         )  # fmt: skip
+        return _OfVectors.made(dict(zip(FIELDS, known, strict=False)), (ix, iy, rx, ry))
 
     @classmethod
     def from_half_difference(cls, theta_h, theta_d, phi_d) -> "Directions":
@@ -277,11 +272,56 @@ class Directions(KeepsFormed):
         """The same with every unlit pair replaced by a harmless one, so that no law meets the horizon."""
         if self.all_lit:
             return self
-        normal = {"cos_i": 1.0, "cos_r": 1.0, "phi_deg": 180.0}
-        return Directions(**{name: np.where(self.lit, getattr(self, name), normal.get(name, 0.0)) for name in FIELDS})
+        return self._with_unlit_at_normal()
+
+    def _with_unlit_at_normal(self) -> "Directions":
+        return Directions(
+            **{name: np.where(self.lit, getattr(self, name), AT_NORMAL.get(name, 0.0)) for name in FIELDS}
+        )
 
 
+class _OfVectors(Directions):
+    """Directions whose azimuths are not formed yet."""
+
+    _tangents: tuple  # x and y of the light, x and y of the detector; gone where the azimuths are fields
+
+    @classmethod
+    def made(cls, known: dict, tangents) -> "_OfVectors":
+        """Takes  every field but the azimuths."""
+        new = object.__new__(cls)
+        vars(new).update(known, _tangents=tuple(tangents))
+        return new
+
+    @cached_property
+    def phi_i_deg(self):
+        """Azimuth of the light; 0 at the normal, where the detector alone says where a grain lies."""
+        ix, iy, _, _ = self._tangents
+        return np.where((ix == 0) & (iy == 0), 0.0, np.degrees(np.arctan2(iy, ix)))
+
+    @cached_property
+    def phi_deg(self):
+        ix, iy, rx, ry = self._tangents
+        phi = np.degrees(np.arctan2(ix * ry - iy * rx, ix * rx + iy * ry))
+        normal = (ix == 0) & (iy == 0)
+        return np.where(normal, np.degrees(np.arctan2(ry, rx)), phi) if np.any(normal) else phi
+
+    def each(self, function) -> Directions:
+        if "_tangents" not in vars(self):
+            return super().each(function)
+        known = {name: function(np.asanyarray(getattr(self, name))) for name in KNOWN}
+        return self.made(known, (function(np.asanyarray(each)) for each in self._tangents))
+
+    def _with_unlit_at_normal(self) -> Directions:
+        if "_tangents" not in vars(self):
+            return super()._with_unlit_at_normal()
+        known = {name: np.where(self.lit, getattr(self, name), AT_NORMAL.get(name, 0.0)) for name in KNOWN}
+        apart = (0.0, 0.0, -1.0, 0.0)  # the detector's azimuth at 180
+        return self.made(known, (np.where(self.lit, *each) for each in zip(self._tangents, apart, strict=True)))
+
+
+AT_NORMAL = {"cos_i": 1.0, "cos_r": 1.0, "phi_deg": 180.0}  # a pair that meets no horizon; other fields are 0
 FIELDS = tuple(field.name for field in fields(Directions))
+KNOWN = FIELDS[:-2]  # all but the azimuths
 
 
 def _cos_sin(degrees, complement=None):

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp
 
+from brdfguide import models
 from brdfguide.audit.textbook import ExactDirections
 from brdfguide.formed import formed
 from brdfguide.physics.geometry import Geometry, in_plane, rows
@@ -115,3 +116,27 @@ def test_geometry_is_pickled_without_what_was_formed_from_it():
     size = len(pickle.dumps(geom))
     formed(lambda directions: directions.tan2_h)(geom)
     assert len(pickle.dumps(geom)) == size and np.array_equal(pickle.loads(pickle.dumps(geom)).tan2_h, geom.tan2_h)
+
+
+def test_azimuths_of_vectors_are_formed_when_they_are_asked_for():
+    random = np.random.default_rng(11)
+    i, r = (random.standard_normal((50, 3)) for _ in range(2))
+    i, r = (each / np.linalg.norm(each, axis=1, keepdims=True) for each in (i, r))
+    i[0], i[1] = (0.0, 0.0, 1.0), (0.6, 0.0, -0.8)  # at the normal; below the horizon
+    geom = Geometry.from_vectors(i, r)
+    phi_i = np.degrees(np.arctan2(i[:, 1], i[:, 0]))
+    phi = np.degrees(np.arctan2(i[:, 0] * r[:, 1] - i[:, 1] * r[:, 0], i[:, 0] * r[:, 0] + i[:, 1] * r[:, 1]))
+    phi_i[0], phi[0] = 0.0, np.degrees(np.arctan2(r[0, 1], r[0, 0]))
+    few = geom[3:9]
+    for law in ("ggx", "he-torrance", "lambertian"):
+        values = models.get(law)(geom, {})
+        assert np.all(values[~geom.lit] == 0)
+        np.testing.assert_array_equal(models.get(law)(few, {}), values[3:9])
+    for each in (geom, geom.where_lit(), few):
+        assert not {"phi_deg", "phi_i_deg"} & set(vars(each.directions))
+    np.testing.assert_array_equal(few.phi_deg, phi[3:9])
+    np.testing.assert_array_equal(geom.phi_i_deg, phi_i)
+    np.testing.assert_array_equal(geom.phi_deg, phi)
+    np.testing.assert_array_equal(geom.where_lit().phi_deg, np.where(geom.lit, phi, 180.0))
+    for again in (pickle.loads(pickle.dumps(geom)), geom.swapped().swapped(), geom.light_turned().light_turned()):
+        np.testing.assert_allclose(again.v_xy, geom.v_xy, atol=1e-12)
