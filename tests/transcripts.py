@@ -17,6 +17,7 @@ from .conftest import ROOT
 
 BLOCK = re.compile(r"```console\n(.*?)```", re.S)
 NUMBER = re.compile(r"\d+\.\d+")
+FULL = 14  # characters, from which a number is printed in full
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SHOWN = [page for page in PAGES if BLOCK.search(page.read_text())]
 
@@ -31,14 +32,19 @@ def commands(page: Path) -> Iterator[tuple[str, str]]:
 
 def alike(said: str, shown: str) -> bool:
     """The same words, and decimal numbers that agree to two units of the last digit: another NumPy may round
-    otherwise.
+    otherwise. Those that are printed in full agree to twelve digits, however many there are.
     """
     if NUMBER.sub("#", said) != NUMBER.sub("#", shown):
         return False
     pairs = zip(NUMBER.findall(said), NUMBER.findall(shown), strict=True)
-    return all(
-        len(a) == len(b) and abs(float(a) - float(b)) <= 2.001 * 10.0 ** -len(b.partition(".")[2]) for a, b in pairs
-    )
+    return all(_alike_numbers(a, b) for a, b in pairs)
+
+
+def _alike_numbers(said: str, shown: str) -> bool:
+    apart = abs(float(said) - float(shown))
+    if min(len(said), len(shown)) > FULL:
+        return apart <= 1e-12 * abs(float(shown))
+    return len(said) == len(shown) and apart <= 2.001 * 10.0 ** -len(shown.partition(".")[2])
 
 
 def missing(printed: str, shown: str) -> str | None:

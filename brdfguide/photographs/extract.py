@@ -24,6 +24,7 @@ from .outline import Outline, find_outline, limb_near, through
 from .picture import Exposure, Photograph, Window, clip_level
 from .plan import Plan, Shot
 from .readers import read_picture
+from .rod_outline import LEANS_PX, find_rod
 from .sight import NEAR_WHITE, Sight, sight, sparkle
 from .solids import Pinhole, Points, plate_points, points
 from .unnoticed import Changed, Doubts, in_all_shots, shot_changes, unseen_finding
@@ -34,6 +35,7 @@ FLOAT_QUANTUM = 1e-3
 GUESSED_BODY = 0.3  # albedo of the body where the level is not known, so that laws with bounds can be fitted at all
 MOST_MOVED_PX = 0.5  # from the limb
 OFF_PX = 1.0  # between the stated outline and the limb
+OFF_SHARE = 0.02  # of a rod's half width, by which its stated outline may differ from what its shading tells
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +59,10 @@ def extract(plan: Plan) -> Extract:
     findings = [note for pair in pairs for picture in pair if picture is not None for note in picture.findings]
     if plan.solid == "flat":
         return _of_plate(plan, pairs, findings)
-    outline, of_outline = _outline(plan, pairs)
+    if plan.solid == "cylinder":
+        plan, outline, of_outline = _rod(plan, pairs)
+    else:
+        outline, of_outline = _outline(plan, pairs)
     view = Pinhole(outline.centre, outline.radius, plan.distance)
     findings += of_outline
     if not np.isfinite(plan.distance):
@@ -196,15 +201,10 @@ def _exposure(stated: Exposure, picture: Photograph) -> Exposure:
 
 def _outline(plan: Plan, pairs) -> tuple[Outline, list[Finding]]:
     references = list({id(each): each for _, each in pairs if each is not None}.values())
-    if plan.solid != "sphere":
-        assert plan.outline is not None
-        return plan.outline, []
     if plan.outline is not None:
         return plan.outline, _against_limb(plan.outline, references)
     shown = references or [sample for sample, _ in pairs]
-    sizes = {picture.size for picture in shown}
-    if len(sizes) > 1:
-        raise InputError(f"{plan.name}: the pictures differ in size; wanted one camera that stands still")
+    _check_one_size(plan, shown)
     circles, limbs = zip(*(find_outline(picture) for picture in shown), strict=True)
     outline, _ = through(np.concatenate(limbs))
     outline = _by_shading(plan, outline, references)
@@ -218,6 +218,42 @@ def _outline(plan: Plan, pairs) -> tuple[Outline, list[Finding]]:
     if apart > max(OFF_PX, 0.01 * outline.radius):
         found.append(_outline_differs(f"the pictures show the ball up to {apart:.1f} px apart", apart))
     return outline, found
+
+
+def _check_one_size(plan: Plan, pictures) -> None:
+    if len({picture.size for picture in pictures}) > 1:
+        raise InputError(f"{plan.name}: the pictures differ in size; wanted one camera that stands still")
+
+
+def _rod(plan: Plan, pairs) -> tuple[Plan, Outline, list[Finding]]:
+    """The plan with a rod's rows, its outline (compared with what is stated), and what was noticed."""
+    references = [reference for _, reference in pairs if reference is not None]
+    if not references:
+        assert plan.outline is not None
+        return plan, plan.outline, []
+    _check_one_size(plan, references)
+    lamps = [shot.lamp for shot, (_, reference) in zip(plan.shots, pairs, strict=True) if reference is not None]
+    try:
+        found, rows, leans = find_rod(references, lamps, plan.distance)
+    except InputError:
+        if plan.outline is None:
+            raise
+        return plan, plan.outline, []
+    notes = []
+    if leans > LEANS_PX:
+        notes.append(_outline_differs(f"the rod leans: its edge stands {leans:.1f} px apart above and below", leans))
+    if plan.outline is not None:
+        off = abs(found.x - plan.outline.x) + abs(found.radius - plan.outline.radius)
+        if off > max(OFF_PX, OFF_SHARE * found.radius):
+            notes.append(_outline_differs(f"the reference's shading puts the rod {off:.1f} px off its outline", off))
+        return plan, plan.outline, notes
+    text = (
+        f"the rod's outline was found: middle at {found.x:.1f} px, half width {found.radius:.1f} px, rows "
+        f"{rows[0]:.0f} to {rows[1]:.0f}; the camera is taken to be at the height of the picture's middle"
+    )
+    numbers = (("x_px", found.x), ("y_px", found.y), ("radius_px", found.radius))
+    rows = rows if plan.rows_px is None else plan.rows_px
+    return replace(plan, rows_px=rows), found, [Finding("outline-found", text, numbers=numbers), *notes]
 
 
 def _against_limb(outline: Outline, references) -> list[Finding]:

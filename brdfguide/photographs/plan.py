@@ -203,8 +203,13 @@ def _solid_rules(document):
             )
     elif "patch_px" in values:
         yield "patch_px", "'patch_px' has no effect: it is of a flat sample"
-    if solid == "cylinder" and outline == "found":
-        yield "outline", "the outline of a rod is not found: give outline: {centre_px: [x, y], radius_px: r}"
+    unseen = not any("reference" in shot for shot in values.get("shots") or ())
+    if solid == "cylinder" and outline == "found" and unseen:
+        yield (
+            "outline",
+            "without a reference, whose shading tells it, the outline of a rod is not found: give outline: "
+            "{centre_px: [x, y], radius_px: r}",
+        )
     if solid == "sphere" and outline != "found" and "rows_px" in outline:
         yield "outline.rows_px", "'rows_px' has no effect: it is of a rod"
     for number, shot in enumerate(values.get("shots") or ()):

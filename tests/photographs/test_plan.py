@@ -37,7 +37,7 @@ def test_a_phase_is_a_lamp_and_a_patch_is_an_albedo():
         (SPHERE + "shots: [{file: a, reference: b, lamp: [1e300, 0, 0]}]\n", "from -1e+07 to 1e+07"),
         (SPHERE.replace("24", "1e300") + "shots: [{file: a, reference: b, phase_deg: 4}]\n", "at most 1e+07"),
         (SPHERE.replace("sphere", "cube") + "shots: [{file: a, reference: b, phase_deg: 4}]\n", "it is one of: sphere"),
-        (SPHERE.replace("sphere", "cylinder") + "shots: [{file: a, reference: b, phase_deg: 4}]\n", "rod is not found"),
+        (SPHERE.replace("sphere", "cylinder") + "shots: [{file: a, phase_deg: 4}]\n", "rod is not found"),
         (SPHERE.replace("reference_albedo: 0.9\n", "") + "shots: [{file: a, reference: b, phase_deg: 4}]\n", "needs"),
         (SPHERE + "shots: [{file: a, phase_deg: 4}]\n", "'reference_albedo' has no effect"),
         (BARE + "shots: [{file: a, phase_deg: 4, chart_px: [1, 1, 4, 4]}]\n", "needs 'chart_albedo'"),

@@ -1,11 +1,15 @@
 """A rod, whose strip scans one azimuth, and a plate under a moved lamp: both give the surface that was rendered."""
 
+import re
+
 import numpy as np
 import pytest
 
 from brdfguide import fit
 from brdfguide.data import formats
 from brdfguide.errors import InputError
+from brdfguide.photographs.readers import read_picture
+from brdfguide.photographs.rod_outline import find_rod
 from brdfguide.photographs.solids import Pinhole, plate_points, points
 
 from .pictures import Matt, Paint, describe, lamp_at, write_float_tiff
@@ -95,3 +99,41 @@ def test_a_plate_needs_its_patch_and_its_lamps(tmp_path):
         path.write_text(text.replace(old, new))
         with pytest.raises(InputError, match=sentence):
             formats.read(path)
+
+
+@pytest.mark.parametrize("lamp", ["stated", "reference"])
+def test_the_outline_of_a_rod_is_found(tmp_path, lamp):
+    path = rod_shots(tmp_path, [lamp_at(40), lamp_at(100)])
+    text = path.read_text().replace("outline: {centre_px: [60, 40], radius_px: 50}\n", "")
+    if lamp == "reference":
+        text = re.sub(r"lamp: \[[^]]*\]", "lamp: reference", text)
+    path.write_text(text)
+    measurement = formats.read(path)
+    numbers = next(dict(each.numbers) for each in measurement.findings if each.code == "outline-found")
+    assert numbers["x_px"] == pytest.approx(60, abs=0.1) and numbers["radius_px"] == pytest.approx(50, abs=0.1)
+    if lamp == "stated":
+        row = fit(path, models=["lambertian+ggx"]).document["ranking"][0]["parameters"]
+        assert row["ggx.alpha"]["value"] == pytest.approx(0.15, rel=0.02)
+        assert row["lambertian.albedo"]["value"] == pytest.approx([0.3, 0.2, 0.1], rel=0.015)
+
+
+@pytest.mark.parametrize("phases", [(40,), (20,), (100,), (-30, 70), (60, 120)])
+def test_the_width_of_a_rod_is_told_by_one_lit_edge_and_the_shadows_edge(tmp_path, phases):
+    lamps = [lamp_at(abs(phase), 0 if phase > 0 else 180) for phase in phases]
+    rod_shots(tmp_path, lamps)
+    pictures = [read_picture(tmp_path / f"white{number}.tif", None) for number in range(len(lamps))]
+    found, _, leans = find_rod(pictures, lamps, ROD.distance)
+    assert found.x == pytest.approx(60, abs=0.1) and found.radius == pytest.approx(50, abs=0.1) and leans < 0.1
+
+
+def test_a_rod_of_which_a_crescent_is_lit_from_who_knows_where_is_not_found(tmp_path):
+    rod_shots(tmp_path, [lamp_at(140)])
+    with pytest.raises(InputError, match="no upright matt rod whose width the light tells"):
+        find_rod([read_picture(tmp_path / "white0.tif", None)], [None], ROD.distance)
+
+
+def test_a_stated_outline_that_the_shading_contradicts_is_said(tmp_path):
+    path = rod_shots(tmp_path, [lamp_at(40), lamp_at(100)])
+    assert "outline-differs" not in {each.code for each in formats.read(path).findings}
+    path.write_text(path.read_text().replace("radius_px: 50", "radius_px: 53"))
+    assert "outline-differs" in {each.code for each in formats.read(path).findings}
