@@ -4,6 +4,7 @@ close enough to it.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import hypot
 
 import numpy as np
 
@@ -14,12 +15,14 @@ from ..flags import Effect
 from ..physics import seen
 from . import appearance
 from .plausible import foreseeing, plausible
-from .ranked import Ranking, Row
+from .ranked import REAL, Ranking, Row
 
 ALLOWED = 0.05  # rms ln that closeness to the eye may always cost: typically 5 % (ours)
 ALLOWED_SHARE = 0.25  # of the best error, where that is more: the tolerance that its S has as well (ours)
 SIMPLER = 0.9  # times the fewest numbers of those that tie, up to which another is simpler, as closeness asks (ours)
 CHEAPER = 0.8  # times the operations of another, from which on a model is called cheaper
+MUCH_LESS = 1.5  # times the error of another with as few numbers, from which on the other is to be preferred (ours)
+MUCH_CHEAPER = 4.0  # times fewer operations, from which on such a one may be recommended all the same (ours)
 
 
 def recommending(ranking: Ranking, measurement: Measurement) -> Ranking:
@@ -81,7 +84,8 @@ def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) ->
     Of several that cost alike one that ties, and the simplest. Where closeness does not count, the simplest of those
     that cannot be told apart. Closeness counts for what is simpler than those that tie. Of those that tie none that is
     systematically off and errs more at angles left out than another; none that what is known of the surface
-    (`plausible`; its `kind`) rules out.
+    (`plausible`; its `kind`) rules out; none that is merely cheaper than another with as few numbers and much less
+    error (`_outdone`).
     """
     good = trusted(rows)
     best = good[0]
@@ -99,11 +103,14 @@ def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) ->
     aside += doubts
     if equal:
         near = [row for row in near if row.fit.free <= SIMPLER * min(each.fit.free for each in equal)]
+    equal, outdone = _outdone(equal)
+    near, merely_cheaper = _outdone(near)
     pick = min(equal or near, key=lambda row: (row.fit.free, row.work))
     if close != "none":
         least = min(row.work for row in (*equal, *near))
         cheap = [row for row in (*equal, *near) if CHEAPER * row.work <= least]
         pick = min(cheap, key=lambda row: (row not in equal, row.fit.free, row.rms_ln))
+    aside += _but_outdone([row for row in (*outdone, *merely_cheaper) if row.work < CHEAPER * pick.work], pick)
     if pick in near:
         return pick, f"{_close_words(pick, best, close)}{_gain(pick, best)}{aside}"
     if pick is not best:
@@ -124,6 +131,23 @@ def trusted(rows: Sequence[Row]) -> list[Row]:
     return [row for row in rows if not any(each.effect is Effect.FORBIDS for each in row.warnings)] or list(rows)
 
 
+def _outdone(rows: Sequence[Row]) -> tuple[list[Row], list[Row]]:
+    """Those that stand, and those that another outdoes: with as few numbers it errs much less, by more than twice the
+    standard errors of both, and takes not many times the operations."""
+
+    def outdoes(other: Row, row: Row) -> bool:
+        gap = row.rms_ln - other.rms_ln
+        return (
+            other.fit.free <= row.fit.free
+            and row.rms_ln > MUCH_LESS * other.rms_ln
+            and gap > REAL * hypot(row.behind_se, other.behind_se)
+            and other.work < MUCH_CHEAPER * row.work
+        )
+
+    stand = [row for row in rows if not any(outdoes(other, row) for other in rows)]
+    return stand, [row for row in rows if row not in stand]
+
+
 def _seen_farther(row: Row, best: Row) -> bool:
     """Whether nine of ten people would see that a row is farther from the data than the best."""
     return row.seen >= max(seen.ALIKE, seen.CLEARER * best.seen)
@@ -135,6 +159,15 @@ def _but_farther(rows: Sequence[Row], best: Row) -> str:
         return ""
     names = ", ".join(row.fit.name for row in rows)
     return f"; {names} cannot be told from {best.fit.name} by these data, but would be seen to be farther off"
+
+
+def _but_outdone(rows: Sequence[Row], pick: Row) -> str:
+    """An aside on those that would be cheaper than the pick and err much more."""
+    if not rows:
+        return ""
+    least = min(rows, key=lambda row: row.work)
+    times, off = pick.work / least.work, 100 * np.expm1(least.rms_ln)
+    return f"; {least.fit.name} takes {times:.2g} times fewer operations, but is typically {off:.2g} % off"
 
 
 def _passed(rows: Sequence[Row]) -> str:

@@ -8,6 +8,7 @@ from .fit import Fit
 from .floor import Floor
 from .objective import SEEN
 
+REAL = 2.0  # standard errors from which a difference counts
 BETTER = 0.97  # of an error, below which another is less in earnest: worth a step of growth, or to be preferred (ours)
 
 

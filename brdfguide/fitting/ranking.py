@@ -19,13 +19,12 @@ from .choosing import recommending
 from .diagnostics import standard_errors
 from .fit import Fit, FitOptions
 from .objective import METRICS, SEEN
-from .ranked import Ranking, Row
+from .ranked import REAL, Ranking, Row
 from .reading import evaluate
 from .residuals import rms
 
 REPEATS = 7  # of a timing, the least of which counts
 TIMED_SAMPLES = 2048  # directions of a timing, repeated where there are fewer: a long batch that fits the cache
-REAL = 2.0  # standard errors from which a difference counts
 IN_COMMON = 2.0  # times the scatter between neighbours, from which a stated error is one that they share (ours)
 SAME = 1e-5  # times the best error: alike to the digits that order them
 
