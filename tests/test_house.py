@@ -40,6 +40,8 @@ LATE = {
     "photographs.chart_found": {"cv2"},  # an optional dependency
     "photographs.rod_outline": {"scipy.optimize"},  # of which a ball has no need
     "photographs.readers": {"cv2", "OpenEXR", "rawpy"},  # optional dependencies
+    "data.formats.spreadsheet": {"zipfile"},  # every command that reads would load it for workbooks alone
+    "data.formats.klems": {"xml.etree"},  # the same for XML
     "data.formats._open": {"zlib", "lzma", "bz2"},  # Python may be built without them
     "errors": {"difflib", "pathlib"},  # only to word an error, and `roughness` starts without them
     "report.text.emergence": {"json"},  # the same command answers in words without it

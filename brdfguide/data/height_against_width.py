@@ -68,8 +68,10 @@ def _of_scan(measurement: Measurement, rows) -> float | None:
     rows = rows[kept]
     slope = np.copysign(np.sqrt(geom.tan2_h[rows, 0]), geom.signed_theta_r_deg[rows, 0] - geom.theta_i_deg[rows, 0])
     ln = np.log(lobe[kept] * geom.cos_cos[rows, 0]) - 2 * geom.ln_sec2_h[rows, 0]
-    bend, tilt, _ = np.polyfit(slope, ln, 2)
-    if bend >= 0 or not slope.min() < 0 < slope.max():
+    if not slope.min() < 0 < slope.max() or len(np.unique(slope)) < FEWEST:
+        return None
+    bend = np.polyfit(slope, ln, 2)[0]
+    if bend >= 0:
         return None
     top = float(ln.max())  # what was read, not what a parabola would have at a shifted peak
     return 4 * np.pi * np.exp(top) / -bend

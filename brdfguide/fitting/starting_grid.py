@@ -64,8 +64,10 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
 def _grains(layout: Layout, measurement: Measurement, best: dict) -> list[dict]:
     """Widths and axis of each grain that is searched for: those of the lobe's own ellipse, and a streak along each of
     four axes."""
+    if not (layout.walks and layout.grains):
+        return []
     ellipse, found = lobe_ellipse(measurement), []
-    for grain, keys in layout.grains if layout.walks else ():
+    for grain, keys in layout.grains:
         wide, narrow = grain.widths(*(float(np.mean(best[key])) for key in keys[:2]))
         shapes = [(np.sqrt(wide * narrow), STREAK, axis) for axis in STREAKS]
         if ellipse is not None:

@@ -17,13 +17,14 @@ be scaled otherwise, and it fits polynomials where this integrates.
 
 from math import pi
 
+from functools import cache
+
 import numpy as np
 
 from ..physics.geometry import Geometry
 from ._grain import AXIS
 from .model import Extreme, Model, Parameter, Pin, at
 
-RULES = {count: np.polynomial.legendre.leggauss(count) for count in (12, 16)}
 CUTS = (-7.0, -3.0, 0.0, 3.0, 7.0)  # of widths 1/√(m + 1) about the peak of the gloss: pieces of the integral
 
 
@@ -75,6 +76,12 @@ def _in_section(geom: Geometry, axis, spacing, sink) -> tuple[_Section, _Section
     return found[0], found[1]
 
 
+@cache
+def _rule(nodes: int):
+    """Gauss' nodes and weights over -1..1; formed when they are asked for, since their package takes 10 ms to load."""
+    return np.polynomial.legendre.leggauss(nodes)
+
+
 def _over(cuts, light: _Section, view: _Section, weight=lambda t: 1.0, nodes: int = 16):
     """∫ weight (n·i)(n·r) dt over consecutive pieces."""
     total: np.ndarray | float = 0.0
@@ -82,7 +89,7 @@ def _over(cuts, light: _Section, view: _Section, weight=lambda t: 1.0, nodes: in
         half, middle = 0.5 * (stop - start), 0.5 * (stop + start)
         if not np.any(half > 0):
             continue
-        for node, share in zip(*RULES[nodes], strict=True):
+        for node, share in zip(*_rule(nodes), strict=True):
             t = middle + half * node
             total = total + share * half * (light.facing(t) * view.facing(t) * weight(t))
     return total

@@ -11,7 +11,7 @@ Source: Church, Takacs and Leonard 1989, "The prediction of BRDFs from surface p
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from math import pi
 from typing import Protocol
 
@@ -20,7 +20,7 @@ import numpy as np
 from ..errors import InputError
 from ..numerics.special import ln_gamma
 
-NODES, NODE_WEIGHTS = np.polynomial.legendre.leggauss(12)
+NODES = 12  # of Gauss' rule on a panel
 PANEL = 0.5  # of ln ν, over which a spectrum is a polynomial to 1e-12
 FAR = 18.0  # ln cosh t at which the tail of a spectrum has ended
 
@@ -182,7 +182,14 @@ def _panels(low: float, high: float, kinks) -> tuple[np.ndarray, np.ndarray]:
     inside = kinks[(kinks > low) & (kinks < high)]
     ends = np.unique(np.concatenate((np.linspace(low, high, int((high - low) / PANEL) + 2), inside)))
     half = 0.5 * np.diff(ends)[:, None]
-    return (0.5 * (ends[1:] + ends[:-1])[:, None] + half * NODES).ravel(), (half * NODE_WEIGHTS).ravel()
+    nodes, weights = _rule()
+    return (0.5 * (ends[1:] + ends[:-1])[:, None] + half * nodes).ravel(), (half * weights).ravel()
+
+
+@cache
+def _rule():
+    """Nodes and weights over -1..1; formed when they are asked for, since their package takes 10 ms to load."""
+    return np.polynomial.legendre.leggauss(NODES)
 
 
 def _along(density, frequency, knots) -> np.ndarray:

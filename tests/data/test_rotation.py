@@ -103,3 +103,9 @@ def test_a_turn_is_known_by_the_azimuth_of_the_light_half_a_turn_being_none():
     assert [len(each.geom) for each in turning.turned_parts(scans("ggx", [0.0, 90.0], alpha=0.2))] == [
         len(geom) // 3
     ] * 2
+
+
+def test_one_direction_read_again_and_again_tells_no_height():
+    theta = np.repeat([10.0, 20.0, 30.0], 12)
+    measurement = Measurement(rows(Geometry.from_degrees(theta, 0.0, theta, 180.0)), np.linspace(1, 9, 36)[:, None])
+    assert reflectance_needed(measurement) is None

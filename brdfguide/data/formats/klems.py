@@ -9,7 +9,6 @@ Radiance lists them. Values are means over pairs of patches.
 """
 
 import re
-from xml.etree import ElementTree
 
 import numpy as np
 
@@ -67,6 +66,8 @@ def read(source: Source, options: Options) -> Measurement:
 
 
 def _root(source: Source):
+    from xml.etree import ElementTree
+
     if b"<!DOCTYPE" in source.data or b"<!ENTITY" in source.data:
         raise source.error("XML with a document type of its own is not read")
     try:

@@ -4,7 +4,6 @@ Of several sheets with a table one is chosen with `--select sheet=NAME`. Needs o
 """
 
 import io
-import zipfile
 from dataclasses import replace
 
 from ...errors import InputError
@@ -70,6 +69,8 @@ def _sheet(source: Source, select) -> tuple[Source, tuple]:
 
 def _check_size(source: Source) -> None:
     """Raises InputError for an archive that is damaged, or unpacks to more than a workbook can honestly hold."""
+    import zipfile
+
     try:
         with zipfile.ZipFile(io.BytesIO(bytes(source.data))) as archive:
             whole = sum(part.file_size for part in archive.infolist())
