@@ -15,9 +15,8 @@ Source: after the abstract of Poulin and Fournier 1990, "A model for anisotropic
 be scaled otherwise, and it fits polynomials where this integrates.
 """
 
-from math import pi
-
 from functools import cache
+from math import pi
 
 import numpy as np
 
