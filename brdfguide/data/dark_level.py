@@ -50,8 +50,7 @@ def dark_level_of(measurement: Measurement) -> DarkLevel | None:
         return None
     here, there = (each for each in np.unique(np.sort(np.stack(rows), axis=0), axis=1))
     across = 1 / measurement.geom.cos_i[here, 0] - 1 / measurement.geom.cos_i[there, 0]
-    lit = np.where(np.isfinite(measurement.brdf) & measurement.geom.lit, measurement.brdf, np.nan)
-    one, other = lit[here], lit[there]
+    one, other = measurement.readings[here], measurement.readings[there]
     channels = [_of_channel(one[:, place], other[:, place], across) for place in range(one.shape[1])]
     telling = [place for place, each in enumerate(channels) if each is not None]
     if not telling:

@@ -60,6 +60,12 @@ class Measurement(KeepsFormed):
             return (self.brdf > 1 / LARGEST) & (self.brdf < LARGEST) & self.geom.lit
 
     @cached_property
+    def readings(self) -> np.ndarray:
+        """(samples, channels) [1/sr]: of either sign, of a size that can be, above the horizon; NaN elsewhere."""
+        with np.errstate(invalid="ignore"):
+            return np.where((np.abs(self.brdf) < LARGEST) & self.geom.lit, self.brdf, np.nan)
+
+    @cached_property
     def has_value(self) -> np.ndarray:
         """(samples,): where any channel has a value that a fit looks at."""
         return np.any(self.weighed, axis=1)
@@ -70,7 +76,7 @@ class Measurement(KeepsFormed):
         if self.noise is None or not self.noise.matters:
             return self.usable
         with np.errstate(invalid="ignore"):
-            return self.usable | ((self.noise.limit > 0) & (np.abs(self.brdf) < LARGEST) & self.geom.lit)
+            return self.usable | ((self.noise.limit > 0) & np.isfinite(self.readings))
 
     @cached_property
     def clear(self) -> np.ndarray:

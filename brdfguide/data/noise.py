@@ -84,8 +84,7 @@ def _against_neighbours(measurement: Measurement):
     incidence are compared, or each with a parabola through its neighbours. In a dense table neighbours stand beside
     each other in the file. Departures are those of ln f times f; where a value is not positive, those of f.
     """
-    values = np.where(np.isfinite(measurement.brdf) & measurement.geom.lit, measurement.brdf, np.nan)
-    ln = measurement.ln
+    values, ln = measurement.readings, measurement.ln
     if len(ln) > DENSE:
         return _in_file_order(ln)
     found = [each for rows, angle in _scans(measurement.geom) for each in _departures(rows, angle, values, ln)]

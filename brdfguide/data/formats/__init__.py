@@ -59,9 +59,13 @@ def read(path, *, wavelength=None, in_plane: bool = False, theta_max: float | No
 
 
 def _read(format: Format, source: Source, asked: Options, **selection) -> Measurement:
-    """A file's content as its format and the user say. Raises InputError."""
+    """A file's content as its format and the user say. Raises InputError.
+
+    Where a file's numbers are beyond arithmetic, what comes of them is no number, and is dropped or refused as such.
+    """
     _options.heeded(asked, format, source.name)
-    measurement = format.read(source, asked).noting(*source.findings)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        measurement = format.read(source, asked).noting(*source.findings)
     del source
     _options.without_effect(asked, measurement)
     return user_selection(finished(measurement, format, asked), **selection)

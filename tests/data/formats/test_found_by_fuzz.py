@@ -1,6 +1,7 @@
 """What `benchmarks/fuzz` found, each by its kind: a sentence or an honest reading, in time, and no warning."""
 
 import json
+import re
 import struct
 import time
 
@@ -12,7 +13,8 @@ from brdfguide.errors import BrdfguideError, InputError, NoAnswer
 from brdfguide.fitting.compare import compare
 from brdfguide.models import candidates
 
-from .containers import cornell, fred, rgl_fields, tensor_file, zemax
+from .containers import cornell, every, fred, rgl_fields, tensor_file, zemax
+from .test_programs import anisotropic, spectral
 
 ROWS = "".join(f"{i},{r},0.2\n" for i in (10, 30, 50) for r in range(-40, 61, 20))
 
@@ -96,3 +98,33 @@ def test_a_table_of_values_that_none_can_be_is_examined(tmp_path):
     measurement = read(tmp_path, content)
     assert not np.any(measurement.has_value)
     examine.examine(measurement)
+
+
+@pytest.mark.parametrize("name", [*(name for name, made in every().items() if b"\0" not in made), "speos", "spectral"])
+@pytest.mark.parametrize("number", ["1e308", "-1e200", "1e-320"])
+def test_a_number_beyond_arithmetic_is_a_sentence_or_a_lost_value(tmp_path, name, number):
+    made = {**every(), "speos": anisotropic(kind=1).encode(), "spectral": spectral().encode()}[name].decode("latin-1")
+    numbers = list(re.finditer(r"(?<![\w.])\d+\.?\d*(?![\w.])", made))
+    for found in numbers[:: max(len(numbers) // 8, 1)]:
+        try:
+            measurement = read(tmp_path, (made[: found.start()] + number + made[found.end() :]).encode("latin-1"))
+        except InputError:
+            continue
+        examine.examine(measurement)
+
+
+def test_a_speos_total_beyond_every_number_is_no_warning(tmp_path):
+    head = "OPTIS - Anisotropic BSDF surface file v8.0\n0\nmade\n4\nmade\n1\t0\t0\n1\t0\n1\n1\n0\n1\n64\n64\t0\n\n"
+    table = "4 3\n\t0\t120\t240\n0\t1e-9\t1e-9\t1e-9\n0.1\t0\t500\t0\n0.2\t0\t0\t0\n60\t1e-9\t0\t0\nEnd of file\n"
+    measurement = read(tmp_path, head + "2\n400\t1.7e308\n800\t30\n" + table)
+    assert not np.any(np.isfinite(measurement.brdf[:, 0]))
+
+
+@pytest.mark.parametrize("value", ["1e305", "-1e305"])
+def test_a_value_that_none_can_be_is_no_neighbour_of_others(tmp_path, value):
+    rows = [f"{i},{r},{0.2 + r / 1000}" for i in (10, 30, 50) for r in range(-60, 61, 4)] + ["30,20.001,0.22"]
+    measurement = read(
+        tmp_path, "theta_i,theta_r,brdf\n" + "\n".join(rows).replace("30,20,0.22", f"30,20,{value}") + "\n"
+    )
+    examine.examine(measurement)
+    assert np.count_nonzero(np.isnan(measurement.readings)) == 1
