@@ -40,7 +40,7 @@ def halves(draw, folder: Path, number: int) -> list[Path]:
         made = Surface.named("lambertian+ggx", {"albedo": colour, "ggx.alpha": alpha, "ggx.n": draw.uniform(1.35, 1.7)})
     else:
         made = Surface.named("ggx", {"alpha": alpha, "n": draw.uniform(0.3, 3.0, 3), "k": draw.uniform(2.0, 6.0, 3)})
-    grid = np.meshgrid([10.0, 25, 40, 55, 70], np.arange(-78.0, 79, 2), [0.0, 30.0], indexing="ij")
+    grid = np.meshgrid([10.0, 25, 40, 55, 70], np.arange(-78.0, 79, 2), [180.0, 210.0], indexing="ij")
     geom = rows(signed(*(each.ravel() for each in grid))).at(UM)
     brdf = made.at(UM).brdf(geom) * (1 + NOISE * draw.standard_normal((len(geom), 3)))
     files = []

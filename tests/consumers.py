@@ -24,7 +24,7 @@ class Consumer(NamedTuple):
 
 def program(*command: str) -> str:
     """The first word with a digit in what a program answers."""
-    run = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    run = subprocess.run(command, capture_output=True, text=True, timeout=300)
     if run.returncode:
         raise OSError(f"{command[0]} ends with status {run.returncode}")
     return next(word for word in run.stdout.split() if any(map(str.isdigit, word)))

@@ -168,7 +168,7 @@ def documents(folder: Path) -> list[tuple[str, dict]]:
     """(command, document) of every command, in this process."""
     for name, text in FILES.items():
         (folder / name).write_text(text)
-    names = {path.stem: str(path) for path in folder.iterdir()} | {"out": str(folder)}
+    names = {path.stem: str(path) for path in sorted(folder.iterdir())} | {"out": str(folder)}
     names |= {"fit": str(folder / "fit.json"), "abg": str(folder / "abg.csv")}
     (folder / "abg.csv").write_text(_polished())
     fit = printed(f"fit {PAPER} -m lambertian+ggx,lambertian+ward --json --no-timing", names)

@@ -27,7 +27,7 @@ def shell(tmp_path_factory):
 
     def run(line):
         return subprocess.run(
-            ["sh", "-c", line], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=180
+            ["sh", "-c", line], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300
         )
 
     return run

@@ -1,5 +1,6 @@
 """The fuzz harness sees what it should: a planted error of each kind, the same case again, and nothing else today."""
 
+import math
 import subprocess
 import sys
 import time
@@ -79,22 +80,37 @@ def test_a_hang_and_a_death_are_seen_and_the_next_case_is_tried(fuzz, monkeypatc
     import os
 
     run, tries = fuzz
-    plan = {0: lambda: time.sleep(60), 1: lambda: os._exit(3), 2: lambda: None}
+
+    def busy():
+        while True:
+            pass
+
+    plan = {0: busy, 1: lambda: os._exit(3)}
 
     def case(target, seed, index):
-        plan.get(index, plan[2])()
+        plan.get(index, lambda: None)()
         return tries.Case("answered")
 
     monkeypatch.setattr(tries, "case", case)
-    monkeypatch.setattr(run, "HANG_S", 1.0)
-    counts, _, _, failures = run.tried("table", 1, 3.0)
-    assert counts["hang"] == 1 and counts["died"] == 1 and counts["answered"] > 0
+    monkeypatch.setattr(run, "HANG_S", 2.0)
+    monkeypatch.setattr(run, "GLANCE_S", 0.1)
+    counts, _, _, failures = run.tried("table", 1, math.inf, most=5)
+    assert counts["hang"] == 1 and counts["died"] == 1 and counts["answered"] == 3
     assert sorted(failures.values()) == ["table:1:0", "table:1:1"]
 
 
+def test_a_case_that_waits_for_ever_is_a_hang(fuzz, monkeypatch):
+    run, tries = fuzz
+    monkeypatch.setattr(tries, "case", lambda *_: time.sleep(6000))
+    monkeypatch.setattr(run, "STUCK_S", 0.5)
+    monkeypatch.setattr(run, "GLANCE_S", 0.1)
+    counts, _, _, failures = run.tried("table", 1, math.inf, most=1)
+    assert counts["hang"] == 1 and sum(counts.values()) == 1 and list(failures.values()) == ["table:1:0"]
+
+
 def test_it_runs_from_anywhere_and_ends_with_a_line_for_each_target(tmp_path):
-    words = [sys.executable, str(FOLDER / "run.py"), "--minutes", "0.05", "--seed", "5", "--only", "scene,fit-json"]
-    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    words = [sys.executable, str(FOLDER / "run.py"), "--cases", "25", "--seed", "5", "--only", "scene,fit-json"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
     lines = done.stdout.splitlines()
     assert done.returncode == 0 and [line.split()[0] for line in lines] == ["seed", "target", "scene", "fit-json"]
-    assert int(lines[2].split()[1]) > 20 and not list(tmp_path.iterdir())
+    assert [int(line.split()[1]) for line in lines[2:]] == [25, 25] and not list(tmp_path.iterdir())

@@ -24,7 +24,7 @@ stopping.listen()
 begun = time.monotonic()
 try:
     Deaf()  # what the handler raises is lost in here
-    while time.monotonic() - begun < 10:
+    while time.monotonic() - begun < 60:
         time.sleep(0.01)
     sys.exit("never heard")
 except Stopped as end:
@@ -37,5 +37,5 @@ except Stopped as end:
 @pytest.mark.parametrize("name", ["INT", "TERM"])
 def test_a_signal_whose_exception_is_lost_is_raised_again_until_it_is_heard(name):
     words = [sys.executable, "-c", LOST.format(name=name)]
-    done = subprocess.run(words, capture_output=True, timeout=60, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    done = subprocess.run(words, capture_output=True, timeout=300, env={**os.environ, "PYTHONPATH": str(ROOT)})
     assert done.returncode == 128 + getattr(signal, f"SIG{name}"), done.stderr

@@ -32,8 +32,8 @@ def evaluate(
         Option("--data", help="At the directions and channels of this file, through the aperture of the fit."),
     ] = None,
     theta_i: Annotated[str, Option("--theta-i", help="Incidence [deg]: 45 or 10,45,75 or 0:80:5.")] = "0,45,75",
-    theta_r: Annotated[str, Option("--theta-r", help="Reflection [deg], positive on the mirror side.")] = "-85:85:5",
-    phi: Annotated[str, Option("--phi", help="Azimuth away from the mirror plane [deg].")] = "0",
+    theta_r: Annotated[str, Option("--theta-r", help="Reflection [deg]; negative: half a turn away.")] = "-85:85:5",
+    phi: Annotated[str, Option("--phi", help="phi_r - phi_i [deg], 180 on the mirror side.")] = "180",
     wavelength_nm: Annotated[float, Option("--wavelength-nm", help="Wavelength [nm].")] = 550.0,
     json: JsonOption = False,
 ) -> None:
@@ -79,7 +79,7 @@ def _named(words: list[str], wavelength_nm: float):
 
 
 def _grid(theta_i: str, theta_r: str, phi: str):
-    """Every combination of the angles [deg] in three lists; theta_r is positive on the mirror side, phi from it."""
+    """Every combination of the angles [deg] in three lists; phi is phi_r - phi_i, theta_r < 0 half a turn away."""
     import numpy as np
 
     from ..physics.geometry import rows, signed

@@ -153,7 +153,7 @@ def evaluate(
     surface: Any,
     theta_i: "ArrayLike | Measurement",
     theta_r: "ArrayLike | None" = None,
-    phi: "ArrayLike" = 0.0,
+    phi: "ArrayLike" = 180.0,
     *,
     wavelength_nm: float | None = None,
     **values: Any,
@@ -161,8 +161,8 @@ def evaluate(
     """The finite part of the BRDF [1/sr].
 
     Takes  a Surface, an answer, or words such as "ggx", with `values` by name, angles in degrees; theta_i, theta_r and
-    phi [deg], which broadcast: theta_r positive on the mirror side, phi away from the mirror plane; or a Measurement in
-    place of theta_i: its directions, channels and aperture; wavelength_nm in place of the surface's own.
+    phi = phi_r - phi_i [deg], 180 in the mirror direction, which broadcast, a negative theta_r half a turn away; or a
+    Measurement in place of theta_i: its directions, channels and aperture; wavelength_nm in place of the surface's own.
     Gives  (..., channels): the angles' common shape and the surface's channels, or (samples, channels) for a
     Measurement.    Raises InputError for angles beyond the horizon and for values where the law does not hold.
     """
@@ -181,7 +181,7 @@ def evaluate(
             theta_i.instrument,
         )
     if theta_r is None:
-        raise InputError("theta_r is missing: degrees, positive on the mirror side")
+        raise InputError("theta_r is missing: degrees, positive on the mirror side of the normal")
     geom = signed(theta_i, theta_r, phi)
     return reading(found, Instrument(rows(geom))).reshape(*geom.shape, len(found.channels))
 

@@ -101,13 +101,15 @@ def rows(geom: Geometry) -> Geometry:
     return Geometry(geom.directions.each(lambda values: np.reshape(values, (-1, 1))), geom.wavelength)
 
 
-def signed(theta_i_deg, theta_r_deg, phi_deg=0.0, wavelength=WAVELENGTH_UM) -> Geometry:
-    """Directions of angles [deg] that broadcast: theta_r is positive on the mirror side, phi counts from its plane.
+def signed(theta_i_deg, theta_r_deg, phi_deg=180.0, wavelength=WAVELENGTH_UM) -> Geometry:
+    """Directions of angles [deg] that broadcast: phi is phi_r - phi_i, 180 in the mirror direction, as everywhere.
+
+    A negative theta_r is that angle on the other side, half a turn away: -30, 180 is 30, 0.
 
     Raises InputError beyond the horizon.
     """
     theta_i_deg, theta_r_deg = np.asarray(theta_i_deg, float), np.asarray(theta_r_deg, float)
     if np.any((theta_i_deg < 0) | (theta_i_deg > 90)) or np.any(np.abs(theta_r_deg) > 90):
         raise InputError("theta_i lies in 0..90 and theta_r in -90..90 degrees")
-    side = np.where(theta_r_deg < 0, 0.0, 180.0)
-    return Geometry.from_degrees(theta_i_deg, 0.0, np.abs(theta_r_deg), side + np.asarray(phi_deg, float), wavelength)
+    phi_deg = np.remainder(np.asarray(phi_deg, float) + np.where(theta_r_deg < 0, 180.0, 0.0), 360.0)
+    return Geometry.from_degrees(theta_i_deg, 0.0, np.abs(theta_r_deg), phi_deg, wavelength)

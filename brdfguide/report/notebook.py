@@ -11,7 +11,7 @@ def ranking_html(document: dict) -> str:
     """What was fitted, every candidate in its place, which to use and why, and what is doubtful about it."""
     pick = next(row for row in document["ranking"] if row["candidate"] == document["recommended"])
     return (
-        f"<p>{escape(heading(document['data']) + kind_line(document.get('kind')))}</p>{ranking(document)}"
+        f"<p>{escape(heading(document['data']) + kind_line(document))}</p>{ranking(document)}"
         f"<p><strong>{escape(document['recommended'])}</strong>: {escape(document['because'])}</p>"
         f"{html_findings([*pick['flags'], *document['warnings']])}"
     )

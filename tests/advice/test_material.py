@@ -1,7 +1,6 @@
 """Descriptions: twenty ways to be wrong, each a clear sentence with its place; and the catalogue that comes along."""
 
 import json
-import resource
 import subprocess
 import sys
 
@@ -11,6 +10,7 @@ from brdfguide.advice import guidelines, library, material, recommend
 from brdfguide.errors import InputError
 
 from ..conftest import ROOT
+from ..patience import takes_less_than
 
 KEYS = ", ".join(each.name for each in material.FIELDS)
 BAD = {
@@ -222,18 +222,18 @@ def test_what_leaving_out_an_observation_does_is_said(name, answers):
 
 
 def test_all_of_them_in_one_process_in_less_than_3_seconds():
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    run = subprocess.run(
-        [sys.executable, "-m", "brdfguide", "recommend", *NAMES, "--json"], cwd=ROOT, capture_output=True, text=True
-    )
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    runs = []
+
+    def recommended():
+        words = [sys.executable, "-m", "brdfguide", "recommend", *NAMES, "--json"]
+        runs.append(subprocess.run(words, cwd=ROOT, capture_output=True, text=True))
+
+    assert takes_less_than(3, recommended)
+    run = runs[-1]
     document = json.loads(run.stdout)
     assert run.returncode == 0, run.stderr
     assert len(document["recommendations"]) == len(NAMES)
     assert all(each["candidates"] and each["recommended"] for each in document["recommendations"])
-    assert (
-        after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < 3
-    )  # of the processor, whoever else uses it
 
 
 def test_a_consultation_is_the_same_twice():

@@ -34,6 +34,6 @@ def test_shards_by_other_peoples_engines_are_what_one_run_makes(tool, tmp_path):
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     for line in (f"{fit} --out one", RECIPES[tool].format(fit=f"{fit} --out shards")):
         subprocess.run(
-            line, shell=True, check=True, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL, timeout=120
+            line, shell=True, check=True, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL, timeout=300
         )
     assert content(tmp_path / "one") == content(tmp_path / "shards") and len(content(tmp_path / "one")) == 6

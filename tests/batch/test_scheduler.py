@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -12,6 +11,7 @@ from brdfguide.batch.scheduler import by_scheduler
 from brdfguide.batch.workers import Died, Done
 from brdfguide.errors import EngineLost, InputError
 
+from .. import patience
 from ..conftest import ROOT
 from .test_run import kept, some
 
@@ -45,7 +45,7 @@ def cluster(tmp_path_factory):
     address, *pids = run.stdout.readline().split()
     yield address, [int(pid) for pid in pids]
     run.stdin.close()
-    run.wait(timeout=30)
+    run.wait(timeout=patience.AN_AGE_S)
     run.stdout.close()
 
 
@@ -58,12 +58,9 @@ def test_every_file_is_answered_though_a_worker_is_killed(cluster, tmp_path):
     words += ["--out", str(tmp_path / "d"), "--scheduler", address]
     command = [sys.executable, "-m", "brdfguide", *words]
     run = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    until = time.monotonic() + 90
-    while not kept(tmp_path / "d"):
-        assert time.monotonic() < until and run.poll() is None
-        time.sleep(0.02)
+    patience.until(lambda: kept(tmp_path / "d"), run)
     os.kill(pids[0], signal.SIGKILL)
-    out, err = run.communicate(timeout=120)
+    out, err = run.communicate(timeout=patience.AN_AGE_S)
     lines = out.splitlines()[1:]
     assert [line.split()[-1] for line in lines] == ["answered"] * 9 + ["input"], err
     assert run.returncode == 2 and "bad.csv" in err and len(kept(tmp_path / "d")) == 9

@@ -19,7 +19,7 @@ QUICK = ("-m", "lambertian+ggx,lambertian+ward,lambertian+phong")
 
 def brdfguide(*words, cwd=ROOT):
     run = [sys.executable, "-W", "error", "-m", "brdfguide", *map(str, words)]
-    return subprocess.run(run, cwd=cwd, capture_output=True, text=True, env=None, timeout=120)
+    return subprocess.run(run, cwd=cwd, capture_output=True, text=True, env=None, timeout=300)
 
 
 @pytest.fixture(scope="module")
@@ -215,3 +215,20 @@ def test_the_recommended_says_how_well_each_number_need_be_known(fitted):
     assert shown >= 3 and "for the eye: albedo is known to " in text and " to show" in text
     others = [each for each in document["ranking"] if each is not row]
     assert not any("shows_from" in entry for each in others for entry in each["parameters"].values())
+
+
+def test_a_kind_against_the_evidence_is_said_beside_the_evidence_and_in_the_answer():
+    text = " ".join(brdfguide("fit", DATA, "-m", "ggx", "--kind", "metal", "--no-timing").stdout.split())
+    against = "taken as a metal because --kind says so; these data say dielectric"
+    assert f"trust: {against}; " in text and f"{against}: a body of reflectance" in text
+    agreed = " ".join(brdfguide("fit", DATA, "-m", "ggx", "--kind", "dielectric", "--no-timing").stdout.split())
+    assert "because --kind says so" not in agreed and " dielectric: a body of reflectance" in agreed
+
+
+def test_a_value_that_could_as_well_be_zero_is_not_determined():
+    run = brdfguide("fit", DATA, "-m", "ggx", "--kind", "metal", "--no-timing", "--json")
+    (row,) = json.loads(run.stdout)["ranking"]
+    known = {key: entry["known_to"] for key, entry in row["parameters"].items() if "known_to" in entry}
+    assert known["ggx.k"] > 1 > known["ggx.alpha"]
+    text = " ".join(brdfguide("fit", DATA, "-m", "ggx", "--kind", "metal", "--no-timing").stdout.split())
+    assert "k is not determined, and no change of it shows" in text and "alpha is known to 17 %" in text

@@ -86,7 +86,7 @@ def files(tmp_path_factory) -> dict[str, str]:
     (folder / "angles.txt").write_text("80\n75 slope=0.2\n")
     (folder / "dimmed.csv").write_text("theta_deg,R,G,B\n60,0.03,0.01,0.001\n75,0.28,0.18,0.08\n85,0.71,0.63,0.5\n")
     several(folder)
-    names = {path.stem: str(path) for path in folder.iterdir()}
+    names = {path.stem: str(path) for path in sorted(folder.iterdir())}
     names["fit"] = str(folder / "fit.json")
     names["answers"] = str(folder / "answers")
     run("fit {few} --recurse -m lambertian+ward --no-timing --out {answers}", names)

@@ -61,7 +61,7 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="names, pipes and permis
 def run(words, folder, env=(), **more):
     command = [sys.executable, "-W", "error", "-m", "brdfguide", *test_streams.with_answers(words)]
     environment = {**os.environ, **dict(env), "PYTHONPATH": str(ROOT)}
-    done = subprocess.run(command, cwd=folder, capture_output=True, env=environment, timeout=120, **more)
+    done = subprocess.run(command, cwd=folder, capture_output=True, env=environment, timeout=300, **more)
     test_streams.sound(done.stderr)
     return done
 

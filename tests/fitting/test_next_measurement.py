@@ -110,7 +110,7 @@ def test_the_command_names_the_directions(words):
         "--next",
         *words,
     ]
-    answer = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, timeout=120)
+    answer = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert answer.returncode == 0, answer.stderr
     if not words:
         assert "measure next at\n  theta_i" in answer.stdout

@@ -87,4 +87,4 @@ def striped(amplitude: float) -> str:
 
 def brdfguide(*words):
     run = [sys.executable, "-m", "brdfguide", *map(str, words)]
-    return subprocess.run(run, capture_output=True, text=True, timeout=120)
+    return subprocess.run(run, capture_output=True, text=True, timeout=300)

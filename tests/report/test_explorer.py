@@ -65,7 +65,7 @@ def in_browser(page: str, folder, *options: str, link: str = "") -> str:
         [BROWSER, "--headless=new", "--no-sandbox", *gpu, *quiet, *where, *options, "--dump-dom", address],
         capture_output=True,
         text=True,
-        timeout=180,
+        timeout=300,
     )
     assert "CONSOLE" not in run.stderr, run.stderr
     return run.stdout

@@ -278,7 +278,7 @@ def test_a_browser_shows_it(fitted, tmp_path, scheme, width):
         ],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
     )
     found = re.search(r"<pre>(.*?)</pre>", run.stdout, re.S)
     assert found, run.stderr[-2000:]

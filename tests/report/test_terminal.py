@@ -62,6 +62,10 @@ def test_a_word_longer_than_the_line_is_broken_after_a_sign_and_nothing_of_it_is
     assert folding.broken("\u4e2d" * 30, 20) == ["\u4e2d" * 10] * 3
 
 
+def test_a_number_and_its_percent_stay_on_one_line():
+    assert folding.broken("slope shows from 66 % on", 19) == ["slope shows from", "66 % on"]
+
+
 @pytest.mark.parametrize("columns", [40, 60, 80, None])
 def test_a_table_folds_words_and_never_numbers(screen, columns):
     screen(columns)

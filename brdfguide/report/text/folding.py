@@ -7,6 +7,7 @@ from ...printable import width
 
 PAGE = 100  # columns of prose, on a wider screen and in a pipe
 LEAST = 40  # columns that are always used
+TIED = "\N{NO-BREAK SPACE}"  # stands between a number and its % while lines are broken
 MOST_MARGIN = 30  # columns of an indentation that is kept on the lines that follow
 
 
@@ -24,9 +25,12 @@ def screen_width() -> int | None:
 
 
 def broken(text: str, room: int) -> list[str]:
-    """The text in lines of at most `room` columns, broken at spaces; a longer word after a sign, or else anywhere."""
+    """The text in lines of at most `room` columns, broken at spaces; a longer word after a sign, or else anywhere.
+
+    A number and its % stay together.
+    """
     lines, line = [], ""
-    for word in text.split(" "):
+    for word in text.replace(" %", f"{TIED}%").split(" "):
         joined = f"{line} {word}" if line else word
         if width(joined) <= room:
             line = joined
@@ -35,7 +39,7 @@ def broken(text: str, room: int) -> list[str]:
             lines.append(line)
         *whole, line = _parts(word, room)
         lines += whole
-    return [*lines, line]
+    return [each.replace(TIED, " ") for each in (*lines, line)]
 
 
 def _parts(word: str, room: int) -> list[str]:

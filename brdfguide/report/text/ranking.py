@@ -11,6 +11,7 @@ from .ranked_table import detail_tables, legend, number_text, ranked_lines, told
 from .stray_light import stray_light_text
 from .values import off_words, percent_words
 
+MOST_KNOWN = 1.0  # two standard errors, as a share of a value, from which on it could as well be zero
 MOST_TYPED = 4  # channels of which every value is told
 
 
@@ -102,7 +103,7 @@ def trust_text(document: dict, row: dict, notes: bool = True) -> str:
     """How far to trust the answer, in one sentence."""
     if document.get("no_answer"):
         return ""
-    said = []
+    said = [against] if (against := against_data(document)) else []
     if (held := row["held_out_rms_ln"]) is not None:
         said.append(f"{off_words(100 * expm1(min(held, 50.0)))} off at incidence angles that it was not fitted to")
     causes = {flag["code"] for flag in row["flags"]}
@@ -120,7 +121,7 @@ def trust_text(document: dict, row: dict, notes: bool = True) -> str:
 
 def data_text(document: dict) -> str:
     """What the file is, what its values are worth, and whether it is of a metal."""
-    text = heading(document["data"]) + noise_line(document) + kind_line(document.get("kind"))
+    text = heading(document["data"]) + noise_line(document) + kind_line(document)
     return "\n".join(folded(line, "", "  ") for line in text.split("\n"))
 
 
@@ -146,14 +147,26 @@ def noise_line(document: dict) -> str:
     return text
 
 
+def against_data(document: dict) -> str:
+    """That --kind was believed and the data were not, in a few words; nothing where they agree."""
+    if not any(note["code"] == "kind-contradicted" for note in document["data"]["findings"]):
+        return ""
+    told = document["kind"]["verdict"]
+    taken = "dielectric" if told == "metal" else "metal"
+    return f"taken as a {taken} because --kind says so; these data say {told}"
+
+
 def span_text(values: list[float]) -> str:
     """From the least to the greatest, two digits; one number where they are alike."""
     low, high = min(values), max(values)
     return f"{high:.2g}" if low > 0.8 * high else f"{low:.2g}..{high:.2g}"
 
 
-def kind_line(kind: dict | None) -> str:
-    """Metal or dielectric, where the data decide it."""
+def kind_line(document: dict) -> str:
+    """Metal or dielectric, where the data decide it; that it was fitted as the other, where it was."""
+    if against := against_data(document):
+        return f"\n{against}: {'; '.join(document['kind']['evidence'])}"
+    kind = document.get("kind")
     return (
         f"\n{kind['verdict']}: {'; '.join(kind['evidence'])}"
         if kind and kind["verdict"] in ("metal", "dielectric")
@@ -187,7 +200,9 @@ def shows_text(parameters: dict) -> str:
 
 def known_and_shows(known: float | None, shows: float | None) -> str:
     """How well a value is known beside the change that begins to show."""
-    knowledge = "is not known" if known is None else f"is known to {percent_words(known)}"
+    if known is not None and known >= MOST_KNOWN:
+        known = None
+    knowledge = "is not determined" if known is None else f"is known to {percent_words(known)}"
     if shows is None:
         return f"{knowledge}, and no change of it shows"
     if known is None or known > shows:

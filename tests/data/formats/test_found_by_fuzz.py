@@ -3,7 +3,6 @@
 import json
 import re
 import struct
-import time
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ from brdfguide.errors import BrdfguideError, InputError, NoAnswer
 from brdfguide.fitting.compare import compare
 from brdfguide.models import candidates
 
+from ...patience import takes_less_than
 from .containers import cornell, every, fred, rgl_fields, tensor_file, zemax
 from .test_programs import anisotropic, spectral
 
@@ -72,11 +72,12 @@ def test_an_area_of_zero_leaves_no_value(tmp_path, phis):
 
 
 def test_two_hundred_thousand_tabulators_end_soon(tmp_path):
-    start = time.process_time()
-    with pytest.raises(InputError):
-        read(tmp_path, zemax().replace("SampleRotation 1", "SampleRotation 1" + "\t" * 200_000))
-    read(tmp_path, "theta_i\ttheta_r\tbrdf" + "\t" * 200_000 + "\n" + ROWS.replace(",", "\t"))
-    assert time.process_time() - start < 5
+    def both():
+        with pytest.raises(InputError):
+            read(tmp_path, zemax().replace("SampleRotation 1", "SampleRotation 1" + "\t" * 200_000))
+        read(tmp_path, "theta_i\ttheta_r\tbrdf" + "\t" * 200_000 + "\n" + ROWS.replace(",", "\t"))
+
+    assert takes_less_than(5, both)
 
 
 @pytest.mark.parametrize("value", ["1e300", "1e308", "1e101"])

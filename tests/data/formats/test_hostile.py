@@ -5,10 +5,10 @@ can need.
 import bz2
 import gzip
 import lzma
+import os
 import resource
 import subprocess
 import sys
-import time
 from random import Random
 
 import numpy as np
@@ -19,6 +19,7 @@ from brdfguide.data.columns.vocabulary import KNOWN
 from brdfguide.errors import BrdfguideError, InputError
 
 from ...conftest import ROOT
+from ...patience import takes_less_than
 from .containers import every
 
 FILES = every()
@@ -106,6 +107,7 @@ def test_a_compressed_bomb_ends_in_a_sentence_within_600_mb(tmp_path, name):
     run = subprocess.run(
         [sys.executable, "-m", "brdfguide", "inspect", str(path)],
         cwd=ROOT,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},  # each of them takes its share of the memory that is addressed
         capture_output=True,
         text=True,
         preexec_fn=limit,
@@ -116,17 +118,15 @@ def test_a_compressed_bomb_ends_in_a_sentence_within_600_mb(tmp_path, name):
 
 def test_a_whole_table_needs_less_than_200_mb_and_a_second_or_so(data):
     script = (
-        "import sys, time; from brdfguide.data import formats; start = time.process_time(); formats.read(sys.argv[1]); "
-        "peak = next(line.split()[1] for line in open('/proc/self/status') if line.startswith('VmHWM')); "
-        "print(time.process_time() - start, int(peak) / 1024)"
+        "import sys; from brdfguide.data import formats; formats.read(sys.argv[1]); "
+        "print(next(line.split()[1] for line in open('/proc/self/status') if line.startswith('VmHWM')))"
     )
     path = data / "merl_format" / "red-plastic.binary.xz"
     run = subprocess.run(
         [sys.executable, "-c", script, str(path)], cwd=ROOT, capture_output=True, text=True, check=True
     )
-    seconds, megabytes = (float(word) for word in run.stdout.split())
-    assert megabytes < 200
-    assert seconds < 3  # 0.7 on an idle machine
+    assert int(run.stdout) / 1024 < 200
+    assert takes_less_than(3, lambda: formats.read(path))
 
 
 WORDS = [
@@ -217,9 +217,7 @@ SLOW = {  # texts that took from seconds to for ever
 
 @pytest.mark.parametrize("name", SLOW)
 def test_ends_soon_whatever_the_text(tmp_path, name):
-    start = time.process_time()
-    survives(tmp_path / "slow", SLOW[name].encode())
-    assert time.process_time() - start < 5  # a tenth of it on an idle machine
+    assert takes_less_than(5, lambda: survives(tmp_path / "slow", SLOW[name].encode()))
 
 
 def members(name: str, parts) -> bytes:
@@ -248,9 +246,8 @@ def test_every_member_of_a_compressed_file_is_read(tmp_path, kind):
 def test_a_hundred_thousand_members_are_read_in_a_few_seconds(tmp_path):
     path = tmp_path / "many.gz"
     path.write_bytes(gzip.compress(b"theta_i,theta_r,brdf\n") + gzip.compress(b"10,20,0.5\n") * 100_000)
-    start = time.process_time()
     assert len(formats.read(path).geom) == 100_000
-    assert time.process_time() - start < 10
+    assert takes_less_than(10, lambda: formats.read(path))
 
 
 def codes(measurement):
