@@ -45,6 +45,7 @@ COMMANDS = (
     "roughness --angle 75 --json",
     "roughness --angle 75 --json --contour --angle-error 3",
     "roughness --angle 80 --never --json",
+    "roughness --angle 80 --angle-across 78 --slope 0.3 --json",
     "roughness --sigma-um 0.5 --tau-um 5 --json",
     "roughness --highlight-half-width 8 --json",
     "roughness --mirror {dimmed} --json",

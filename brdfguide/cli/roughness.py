@@ -8,6 +8,7 @@ from typing import Annotated
 
 from typer import Context, Option
 
+from ..errors import InputError
 from ..physics.emergence import DISTANCE_MM, PUPIL_MM, WAVELENGTH
 from ..report.documents.emergence import document
 from ..report.text import emergence
@@ -29,6 +30,14 @@ class Question:
     angle: Annotated[float | None, Option("--angle", metavar="DEG", help="Angle of emergence, from the normal.")] = None
     angle_error: Annotated[
         float | None, Option("--angle-error", metavar="DEG", help="How well the angle was read; 2 unless given.")
+    ] = None
+    angle_across: Annotated[
+        float | None,
+        Option(
+            "--angle-across",
+            metavar="DEG",
+            help="Of a grain: where it emerges across the grooves; --angle is along them, --slope across.",
+        ),
     ] = None
     slope: Annotated[float | None, Option("--slope", help="sigma/tau; 0.1 if nothing is known.")] = None
     sigma_um: Annotated[float | None, Option("--sigma-um", help="Known rms height; asks for tau.")] = None
@@ -96,6 +105,10 @@ def roughness(request: RoughnessRequest) -> None:
     if request.mirror is not None:
         _of_mirror_image(request, request.mirror)
         return
+    if request.question.angle_across is not None:
+        _of_grain(request)
+        return
+    del question["angle_across"]
     if request.batch is not None:
         refuse(request.context, "plot", "full", because="one answer at a time, without --batch")
         if not request.json:
@@ -137,13 +150,40 @@ def _of_highlight(request: RoughnessRequest, lamp_deg: float) -> None:
         remark(f"note: {each['text']}", request.quiet)
 
 
+def _of_grain(request: RoughnessRequest) -> None:
+    """Both correlation lengths from two angles."""
+    from ..report.documents.grained_emergence import grained_document
+    from ..report.text.grained_emergence import grained_text
+
+    asked = asdict(request.question)
+    others = ("tau_um", "never", "contour", "batch", "plot", "full")
+    refuse(request.context, *others, because="--angle-across gives both lengths and nothing else")
+    if asked["angle"] is None:
+        raise InputError("--angle-across needs --angle, where the image emerges along the grain")
+    for name in ("tau_um", "never", "contour"):
+        del asked[name]
+    answer(grained_document(**asked), request.json, grained_text)
+
+
 def _of_mirror_image(request: RoughnessRequest, table: Path) -> None:
     """Both numbers from a table; ends with status 1 where no surface of this kind gives it."""
     from ..report.documents.mirror_image import mirror_document
     from ..report.text.mirror_image import mirror_text
 
     asked = request.question
-    others = ("angle", "angle_error", "slope", "sigma_um", "tau_um", "never", "contour", "batch", "plot", "full")
+    others = (
+        "angle",
+        "angle_across",
+        "angle_error",
+        "slope",
+        "sigma_um",
+        "tau_um",
+        "never",
+        "contour",
+        "batch",
+        "plot",
+        "full",
+    )
     refuse(request.context, *others, because="--mirror has a table in place of the question")
     given = is_typed(request.context, "wavelength_nm")
     wavelength = asked.wavelength_nm / 1000 if given else None

@@ -49,7 +49,7 @@ def export(
 def _refuse_what_turns(surface: ColouredSurface, exporter: Exporter) -> None:
     """Raises NoAnswer for a surface that looks different once it is turned in its plane, and a target that does not."""
     turning = _grained.terms_that_turn(surface)
-    if not turning or (exporter.grained and _grained.axis_of(surface) is not None):
+    if not turning or exporter.averages or (exporter.grained and _grained.axis_of(surface) is not None):
         return
     why = turning[0].model.breaks["rotation"]
     holds = ", ".join(name for name in names() if get(name).grained)

@@ -55,6 +55,13 @@ def axis_of(surface: ColouredSurface) -> float | None:
     return found[0] if together else None
 
 
+def what_turning_loses(surface: ColouredSurface) -> tuple[str, ...]:
+    """The sentence for a target of round lobes alone."""
+    if not terms_that_turn(surface):
+        return ()
+    return ("the grain: the lobe is round, fitted to the surface under four turns",)
+
+
 def tangent_note(axis: float, what: str) -> tuple[str, ...]:
     """Along which azimuth of the sample a target's tangent must lie."""
     degrees = np.degrees(axis) % 180

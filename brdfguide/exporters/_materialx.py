@@ -18,12 +18,33 @@ def materialx_document(surface: ColouredSurface, statement: Statement, elements:
     )
 
 
-def shader(surface: ColouredSurface, node: str, inputs: dict) -> list[str]:
-    """Lines of one surface shader and its material; an input is (type, value)."""
+def shader(surface: ColouredSurface, node: str, inputs: dict, joined: dict[str, str] | None = None) -> list[str]:
+    """Lines of one surface shader and its material; an input is (type, value), or a vector from a node by its name."""
     name = identifier(surface.name)
     lines = [f'  <{node} name="{name}_shader" type="surfaceshader">']
     lines += [f'    <input name="{key}" type="{kind}" value="{value}"/>' for key, (kind, value) in inputs.items()]
+    lines += [f'    <input name="{key}" type="vector3" nodename="{made}"/>' for key, made in (joined or {}).items()]
     return [*lines, f"  </{node}>", *material(name)]
+
+
+def turned_tangent(name: str, axis: float) -> list[str]:
+    """Lines of the nodes that turn the tangent about the normal to an azimuth [rad]; the last is called `name`.
+
+    `rotate3d` turns clockwise seen from above: its matrix takes rows (MaterialX 1.39.5, mx_rotate_vector3).
+    """
+    return [
+        f'  <normal name="{name}_normal" type="vector3">',
+        '    <input name="space" type="string" value="world"/>',
+        "  </normal>",
+        f'  <tangent name="{name}_u" type="vector3">',
+        '    <input name="space" type="string" value="world"/>',
+        "  </tangent>",
+        f'  <rotate3d name="{name}" type="vector3">',
+        f'    <input name="in" type="vector3" nodename="{name}_u"/>',
+        f'    <input name="amount" type="float" value="{-np.degrees(axis):.9g}"/>',
+        f'    <input name="axis" type="vector3" nodename="{name}_normal"/>',
+        "  </rotate3d>",
+    ]
 
 
 def material(name: str) -> list[str]:

@@ -12,6 +12,7 @@ from functools import partial
 import numpy as np
 
 from ..models.model import Model, Parameter
+from ..physics import grain, microfacet
 from ..physics.geometry import Geometry, rows
 from . import _grained
 from ._choice import GOOD, ONE_LOBE, Choice, best_of, choose, has_body, what_is_lost
@@ -42,7 +43,11 @@ class Node:
     matt: Mapping[str, float]  # what makes it a body alone
     under_rough_coat: bool = True  # whether a base stays smooth under a rough coat
     by_schlick: bool = False  # whether F is Schlick's curve
+    masked_alike: bool = False  # whether a lobe with a grain is masked by one width
     grain: str = ""  # how long its streaks are; "": it has none
+    # roughness, grain -> widths across and along, where MaterialX masks light and view with one width and the law
+    # with both
+    widths: Callable[..., tuple] | None = None
 
     def target(self, free: tuple[str, ...], **fixed) -> TargetModel:
         """The law with some numbers free and the rest at `fixed` and its defaults."""
@@ -79,7 +84,9 @@ class Node:
         return targets | {"dielectric": self.target(dielectric[1:], base_color=0.0)}
 
     def grained(self, body: bool, axis: float) -> dict[str, TargetModel]:
-        """The same with a streak along an azimuth [rad]."""
+        """The same with a streak along an azimuth [rad]; round where the node has none."""
+        if not self.grain:
+            return self.ordinary(body)
         held, edge = {"axis": axis}, (self.edge,) if self.edge else ()
         if body:
             free = ("base_color", self.roughness, self.index, *self._free_weight(), self.grain)
@@ -191,6 +198,8 @@ def what_it_costs(node: Node, surface: ColouredSurface, choice: Choice) -> tuple
     if _own_values(node, surface) is not None:
         return ()
     lacks = () if choice.rms_ln <= GOOD else (_lacks(node, surface, choice),)
+    if not node.grain and _grained.axis_of(surface) is not None:
+        lacks = ("the surface has a grain, and this shader none: its lobe is a mean over all turns",)
     if is_smooth(surface):
         return lacks
     lost = what_is_lost(surface)
@@ -210,6 +219,8 @@ def _lacks(node: Node, surface: ColouredSurface, choice: Choice) -> str:
         why = "it takes from the body what the surface above reflects, and the law adds both"
     elif surface.has_mirror and len(kinds) > 1:
         why = "it takes from the lobe what the coat reflects, and the law adds both"
+    elif node.masked_alike and _grained.axis_of(surface) is not None:
+        why = "it masks light and view with one width, whichever way they stand"
     elif node.by_schlick:
         why = "F is Schlick's curve, which lies below Fresnel's between 40 and 80 degrees"
     else:
@@ -302,12 +313,29 @@ def readings(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometr
     return tuple(found)
 
 
+def _one_width(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometry | None) -> tuple[str, ...]:
+    """What MaterialX's masking, which has one width for light and view, makes of a metal with a grain."""
+    values = {**node.law.defaults(), **choice.values}
+    if node.widths is None or not np.all(values[node.metalness]) or np.any(values[node.coat]):
+        return ()
+    geom, wanted, _ = judged_over(surface, geom)
+    wide, narrow = node.widths(values[node.roughness], values[node.grain])
+    alpha = np.sqrt(wide * narrow)
+    alike = microfacet.ggx_shape(geom, alpha) / microfacet.ggx(geom, alpha)
+    apart = grain.grained_shape(geom, wide, narrow, values["axis"]) / grain.grained_density(
+        geom, wide, narrow, values["axis"]
+    )
+    error = rms_ln(node.law(geom, **values) * alike / apart, wanted)
+    return (f"MaterialX masks light and view with one width, √(across along), however they stand: rms ln {error:.2g}",)
+
+
 def _streak(node: Node, axis: float) -> tuple[str, ...]:
-    """Where the streak lies, and who must turn the tangent."""
-    if node.law.name == "openpbr":
-        return _grained.tangent_note(axis, "geometry_tangent")
-    turned = f"{np.degrees(axis) % 180:.3g} degrees counter-clockwise from the tangent"
-    return (f"the streak lies along the tangent turned by its own rotation, {turned}; the grooves run across it",)
+    """Where the streak lies, and what turns the tangent."""
+    if not node.grain:
+        return ()
+    by = "nodes of the file turn" if node.law.name == "openpbr" else "its own rotation turns"
+    turned = f"{np.degrees(axis) % 180:.3g} degrees counter-clockwise from the mesh's"
+    return (f"the streak lies along the tangent that {by}, {turned}; the grooves run across it",)
 
 
 def node_statement(
@@ -316,5 +344,7 @@ def node_statement(
     """The numbers of the node and their Statement."""
     choice = choose_node(node, surface, geom)
     axis = _grained.axis_of(surface)
-    notes = readings(node, choice, surface, geom) + (() if axis is None else _streak(node, axis))
+    notes = readings(node, choice, surface, geom)
+    if axis is not None:
+        notes += _one_width(node, choice, surface, geom) + _streak(node, axis)
     return choice, choice.statement(target, surface, lost=what_it_costs(node, surface, choice), notes=notes)

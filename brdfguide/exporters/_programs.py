@@ -8,6 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+import numpy as np
+
 from .. import catalog
 from ..models.model import Model
 from . import _engine_laws
@@ -27,6 +29,8 @@ class Program:
     formula: str
     always: tuple[str, ...]  # labels that are shown though they keep the default
     read_twice: bool = False  # whether programs read the shader's text in two published ways
+    grain: Callable[[Mapping], Mapping[str, float]] | None = None  # values of the law -> what is typed of a grain
+    turned_by: str = ""  # what lies along the streak there, where the shader does not turn it itself
 
 
 def _node(target: str) -> Node:
@@ -44,6 +48,43 @@ def _blenders_metal() -> Node:
     return replace(node, law=replace(node.law, parameters=parameters))
 
 
+def _axis(values: Mapping) -> float:
+    """Azimuth [rad] of the streak, within half a turn."""
+    return float(np.remainder(np.ravel(values["axis"])[0], np.pi))
+
+
+def _blenders_grain(values: Mapping) -> dict[str, float]:
+    """Principled's widths are roughness²/aspect and roughness² aspect, aspect = √(1 - 0.9 anisotropic), its rotation
+    counter-clockwise (Blender 4.5, svm/closure.h); ratios end at 10."""
+    roughness = float(np.ravel(values["specular_roughness"])[0])
+    if "specular_roughness_anisotropy" in values:  # OpenPBR's r⁴ is the mean of both squares
+        ratio = 1 - float(values["specular_roughness_anisotropy"])
+        roughness *= (2 * ratio / (1 + ratio * ratio)) ** 0.25
+    else:
+        ratio = 1 - float(values["specular_anisotropy"])
+    typed = min((1 - ratio) / 0.9, 1.0)
+    return {"Roughness": roughness, "Anisotropic": typed, "Anisotropic Rotation": _axis(values) / (2 * np.pi)}
+
+
+def _standard_grain(values: Mapping) -> dict[str, float]:
+    """As MaterialX turns: clockwise."""
+    turn = float(np.remainder(-_axis(values), np.pi) / (2 * np.pi))
+    return {"specular_anisotropy": float(values["specular_anisotropy"]), "specular_rotation": turn}
+
+
+def _openpbrs_grain(values: Mapping) -> dict[str, float]:
+    return {"specular_roughness_anisotropy": float(values["specular_roughness_anisotropy"])}
+
+
+def _gltfs_grain(values: Mapping) -> dict[str, float]:
+    """The rotation in radians, counter-clockwise."""
+    return {"anisotropyStrength": float(values["anisotropy_strength"]), "anisotropyRotation": _axis(values)}
+
+
+def _mitsubas_grain(values: Mapping) -> dict[str, float]:
+    return {"anisotropic": float(values["anisotropic"])}
+
+
 BLENDER_FIELDS = {
     "base_color": "Base Color",
     "base_metalness": "Metallic",
@@ -59,7 +100,7 @@ BLENDER_FIELDS = {
 
 
 @lru_cache(maxsize=4)
-def _plain(law: Model, index: str) -> Node:
+def _plain(law: Model, index: str, grain: str = "") -> Node:
     """A shader of base colour, metallic, roughness and one number for the lobe's height, without a coat."""
     matt = {"specular": 0.0} if index == "specular" else {"eta": 1.0}
     return Node(
@@ -73,6 +114,7 @@ def _plain(law: Model, index: str) -> Node:
         coat_roughness="",
         coat_index="",
         matt=matt,
+        grain=grain,
     )
 
 
@@ -96,6 +138,7 @@ PROGRAMS = (
         BLENDER_FIELDS,
         "Standard Surface's in MaterialX, OpenPBR's for metals",
         ("Base Color", "Metallic", "Roughness", "IOR"),
+        grain=_blenders_grain,
     ),
     Program(
         "Arnold, Maya, Houdini",
@@ -104,6 +147,7 @@ PROGRAMS = (
         OF_STANDARD,
         "Standard Surface's in MaterialX",
         ("base_color", "metalness", "specular_roughness", "specular_IOR"),
+        grain=_standard_grain,
     ),
     Program(
         "OpenPBR",
@@ -126,6 +170,8 @@ PROGRAMS = (
         "OpenPBR's in MaterialX",
         ("base_color", "base_metalness", "specular_roughness", "specular_ior"),
         read_twice=True,
+        grain=_openpbrs_grain,
+        turned_by="geometry_tangent",
     ),
     Program(
         "Unreal",
@@ -158,14 +204,17 @@ PROGRAMS = (
         },
         "glTF's appendix B",
         ("baseColor", "metallic", "roughness", "ior"),
+        grain=_gltfs_grain,
     ),
     Program(
         "Mitsuba",
         "principled",
-        lambda _: _plain(_engine_laws.PRINCIPLED, "eta"),
+        lambda _: _plain(_engine_laws.PRINCIPLED, "eta", "anisotropic"),
         {"base_color": "base_color", "metallic": "metallic", "roughness": "roughness", "eta": "eta"},
         "Mitsuba's principled",
         ("base_color", "metallic", "roughness", "eta"),
+        grain=_mitsubas_grain,
+        turned_by="u",
     ),
 )
 
@@ -174,5 +223,8 @@ def node_of(law: str) -> Node | None:
     """The shader of a law by its name; None where the law is no shader with a node."""
     if law in ("openpbr", "standard-surface", "gltf"):
         return _node(law)
-    plain = {"unreal": (_engine_laws.UNREAL, "specular"), "principled": (_engine_laws.PRINCIPLED, "eta")}
+    plain = {
+        "unreal": (_engine_laws.UNREAL, "specular"),
+        "principled": (_engine_laws.PRINCIPLED, "eta", "anisotropic"),
+    }
     return _plain(*plain[law]) if law in plain else None

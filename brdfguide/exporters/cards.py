@@ -22,6 +22,7 @@ from ..errors import NoAnswer
 from ..models.surface import Surface
 from ..physics.colour import hex_of
 from ..physics.geometry import Geometry
+from . import _grained
 from ._choice import GOOD, Choice, with_the_coat
 from ._nodes import Node, choose_node, readings, what_it_costs
 from ._programs import PROGRAMS, Program
@@ -103,6 +104,10 @@ def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
         return Card(program.name, program.shader, {}, None, ("it has a mirror, and roughness 0 is none there",))
     choice = chosen.of(node, surface)
     numbers, hexes = _typed(program, node, choice)
+    notes = readings(node, choice, surface, chosen.geom) if program.read_twice else ()
+    if node.grain and np.any(choice.values.get(node.grain, 0.0)) and program.grain is not None:
+        numbers |= program.grain(choice.values)
+        notes += _grained.tangent_note(_grained.axis_of(surface) or 0.0, program.turned_by) if program.turned_by else ()
     return Card(
         program=program.name,
         shader=program.shader,
@@ -112,7 +117,7 @@ def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
         formula=program.formula,
         hexes=hexes,
         model=surface.model.name,
-        notes=readings(node, choice, surface, chosen.geom) if program.read_twice else (),
+        notes=notes,
         shown=choice.shown(surface),
     )
 
@@ -147,8 +152,11 @@ def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
     numbers: dict[str, float | tuple[float, ...]] = {
         "RGB": tuple(float(each) for each in rgb),
         "specularity": float(np.ravel(values.get("specular", 0.0))[0]),
-        "roughness": float(np.ravel(values.get("roughness", 0.0))[0]),
     }
+    widths = {"alpha_x": "roughness along u", "alpha_y": "roughness across u"}
+    widths = widths if "alpha_x" in values else {"roughness": "roughness"}
+    numbers |= {label: float(np.ravel(values.get(name, 0.0))[0]) for name, label in widths.items()}
+    axis = _grained.axis_of(surface)
     return Card(
         program=name,
         shader=shader,
@@ -158,5 +166,6 @@ def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
         formula=formula,
         hexes={"RGB": hex_of(rgb)},
         model=surface.model.name,
+        notes=() if axis is None else _grained.tangent_note(axis, "u"),
         shown=statement.shown,
     )

@@ -167,12 +167,14 @@ def convert(surface: ColouredSurface, to: str) -> Converted:
         if spelt.written_as_it_stands:
             names = (p.name for p in node.law.parameters)
             values = {name: values[name] for name in names if node.tells(name, values[name])}
+            values = {name: node.law.parameter(name).outside(value) for name, value in values.items()}
     else:
         if surface.has_mirror:
             raise NoAnswer(f"the surface is a mirror; {to} gets finite lobes here")
         model = _model(spelt.law)
         choice = nearest_of_law(model, surface)
-        values = {key: choice.values[key] for key in model.parameters if _tells(model, key, choice.values[key])}
+        told = (key for key in model.parameters if _tells(model, key, choice.values[key]))
+        values = {key: model.parameters[key].outside(choice.values[key]) for key in told}
         lost = ()
         if len(model.terms) == 1:
             values = {key.rpartition(".")[2]: each for key, each in values.items()}

@@ -137,6 +137,7 @@ class Exporter:
     export: Callable[..., Export]
     named: bool = True  # its file holds the surface's name
     grained: bool = False  # whether it holds one grain
+    averages: bool = False  # whether a surface with a grain becomes its mean over all turns, which is said
 
     @property
     def name(self) -> str:

@@ -1,12 +1,16 @@
 """MaterialX: an open_pbr_surface, metal or dielectric, under a coat where a mirror stands beside a finite part.
 
 The law fitted is models/openpbr.py, MaterialX's own nodes; its other published reading is evaluated with the same
-numbers. It dims a body at grazing even under an index of 1.
+numbers. It dims a body at grazing even under an index of 1. A grain turns the tangent by nodes of the file.
 """
 
+import numpy as np
+
 from ..models import term
+from ..models.openpbr import widths
 from ..physics.geometry import Geometry
-from ._materialx import colour3, float_value, materialx_document, shader
+from ..printable import identifier
+from ._materialx import colour3, float_value, materialx_document, shader, turned_tangent
 from ._nodes import Node, node_statement
 from .exporter import ColouredSurface, Export, Exporter
 
@@ -24,6 +28,7 @@ NODE = Node(
     matt={"specular_ior": 1.0},
     under_rough_coat=False,
     grain="specular_roughness_anisotropy",
+    widths=widths,
 )
 COLOURS = ("base_color", "specular_color", "coat_color")
 ALWAYS = ("base_metalness", "specular_roughness", "specular_ior")
@@ -39,7 +44,12 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
             inputs[p.name] = colour3(value, 0.0, 1.0, p.name)
         elif p.name != "axis" and (value != p.default or p.name in ALWAYS):
             inputs[p.name] = float_value(value, p.least, p.high, p.name)
-    return Export(materialx_document(surface, statement, shader(surface, "open_pbr_surface", inputs)), statement)
+    nodes, joined, axis = [], {}, float(np.ravel(choice.values["axis"])[0])
+    if NODE.grain in inputs and axis:
+        joined["geometry_tangent"] = f"{identifier(surface.name)}_across"
+        nodes = turned_tangent(joined["geometry_tangent"], axis)
+    nodes += shader(surface, "open_pbr_surface", inputs, joined)
+    return Export(materialx_document(surface, statement, nodes), statement)
 
 
 EXPORTER = Exporter(__name__, ".mtlx", "MaterialX open_pbr_surface", export, grained=True)

@@ -2,12 +2,12 @@
 
 alpha = roughness². The workflow gives F0 its own colour and F90 = 1, which serves metals (black diffuse) and
 dielectrics alike; the metallic one would tie F0 to the base colour or to one index. The specification leaves the law
-open: the one fitted is MaterialX's definition of the same shader.
+open: the one fitted is MaterialX's definition of the same shader. A grain becomes the mean over all turns.
 """
 
 from ..physics.geometry import Geometry
 from ..printable import identifier
-from . import _smooth, _target_models
+from . import _grained, _smooth, _target_models
 from ._choice import choose, has_body, what_is_lost
 from ._smooth import choose_smooth, is_smooth
 from .exporter import ColouredSurface, Export, Exporter, comment_lines, number, refuse_mirror, rgb_numbers
@@ -20,7 +20,7 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
     if is_smooth(surface):
         choice = choose_smooth(surface, _smooth.usd(has_body(surface)))
     else:
-        lost = refuse_mirror(surface, "usd") + what_is_lost(surface)
+        lost = refuse_mirror(surface, "usd") + what_is_lost(surface) + _grained.what_turning_loses(surface)
         choice = choose(surface, geom, {"specular": target if has_body(surface) else target.with_fixed(albedo=0.0)})
     statement = choice.statement("usd", surface, lost=lost)
     values, name = choice.values, identifier(surface.name)
@@ -57,4 +57,4 @@ def _tuple(values) -> str:
     return "(" + ", ".join(f"{value:.9g}" for value in values) + ")"
 
 
-EXPORTER = Exporter(__name__, ".usda", "USD preview surface, specular workflow", export)
+EXPORTER = Exporter(__name__, ".usda", "USD preview surface, specular workflow", export, averages=True)

@@ -24,6 +24,8 @@ MOST_DISTANCE_MM = 1e9
 TABLE_2 = ((15, 1.1), (45, 1.6), (60, 2.4), (75, 5.5), (80, 9.0), (85, 20.0))  # angle [deg], C
 TAU_LOW = 0.5  # µm, where the abscissa of Figure 14 begins
 TAU_HIGH = 50.0  # µm, where it ends
+LEAST_SIGMA = 1e-7  # µm, where a search for sigma begins
+MOST_SIGMA = 1e7  # µm, where it ends
 STEEPEST = 1.0  # sigma/tau beyond which the theory does not hold (shaded in Figure 14)
 
 
@@ -52,7 +54,7 @@ def eq3_constant(angle_deg: float) -> float:
     if angle_deg > TABLE_2[-1][0]:
         raise NoAnswer(f"Eq. 3 ends at 85 deg: Table 2 has no C for {angle_deg:g}")
     (low, c_low), (high, c_high) = next(pair for pair in pairwise(TABLE_2) if angle_deg <= pair[1][0])
-    x_low, x_high, x = (-log(_cos(angle)) for angle in (low, high, angle_deg))
+    x_low, x_high, x = (-log(cos_of_degrees(angle)) for angle in (low, high, angle_deg))
     share = (x - x_low) / (x_high - x_low)
     if share in (0, 1):  # the table's own digits
         return c_high if share else c_low
@@ -82,7 +84,7 @@ def formula_crossing(angle_deg: float, slope: float, wavelength: float = WAVELEN
     """(sigma, tau) where Eq. 3 meets sigma/tau = slope."""
     _check_slope(slope)
     scale, c = wavelength / WAVELENGTH, eq3_constant(angle_deg)
-    tau = scale * exp(_root(lambda x: x + log(exp(0.7 * x) + 6) - log(c / slope), -15.0, 15.0))
+    tau = scale * exp(sign_change(lambda x: x + log(exp(0.7 * x) + 6) - log(c / slope), -15.0, 15.0))
     return _within(slope * tau, tau, scale)
 
 
@@ -96,7 +98,7 @@ def formula_angle(sigma: float, tau: float, wavelength: float = WAVELENGTH) -> f
             f"Eq. 3 needs C = {c:.3g} for sigma = {sigma:g}, tau = {tau:g} um: Table 2 goes from "
             f"{eq3_constant(0.0):.3g} to 20"
         )
-    return _root(lambda angle: log(eq3_constant(angle) / c), 0.0, float(TABLE_2[-1][0]))
+    return sign_change(lambda angle: log(eq3_constant(angle) / c), 0.0, float(TABLE_2[-1][0]))
 
 
 def _within(sigma, tau, scale):
@@ -121,8 +123,8 @@ def crossing(
     With `near`, a tau close by, sooner and to 1e-6 only.
     """
     _check_slope(slope)
-    target = _ln_target(angle_deg, wavelength, omega)
-    share = slope * effective(slope, angle_deg) * _cos(angle_deg)
+    target = ln_target(angle_deg, wavelength, omega)
+    share = slope * effective(slope, angle_deg) * cos_of_degrees(angle_deg)
     # ln Ein + 2 ln tau is convex in ln tau and Ein >= g, so Newton from where Ein is taken for g comes down to the root
     x = 0.25 * (target - 2 * log(4 * pi * share / wavelength)) if near is None else log(near)
     exact = 1e-15 if near is None else 1e-4
@@ -153,19 +155,19 @@ def sigmas_for_tau(
         high = low + 1
         while miss(high) < 0:
             high += 1
-        return (tau * exp(_root(miss, low, high)),)
+        return (tau * exp(sign_change(miss, low, high)),)
     steps = [wanted - 1e-9 + 0.02 * step for step in range(600)]
     values = [miss(x) for x in steps]
     places = [place for place in range(len(steps) - 1) if (values[place] < 0) != (values[place + 1] < 0)]
-    return tuple(tau * exp(_root(miss, steps[place], steps[place + 1])) for place in places)
+    return tuple(tau * exp(sign_change(miss, steps[place], steps[place + 1])) for place in places)
 
 
 def tau_for_sigma(angle_deg: float, sigma: float, wavelength: float = WAVELENGTH, omega: float = OMEGA) -> float:
     """The tau on the contour at this sigma: one at every angle. Raises NoAnswer where sigma/tau would exceed 100."""
-    target = _ln_target(angle_deg, wavelength, omega)
+    target = ln_target(angle_deg, wavelength, omega)
 
     def miss(x):
-        g = (4 * pi * sigma * effective(sigma / exp(x), angle_deg) * _cos(angle_deg) / wavelength) ** 2
+        g = (4 * pi * sigma * effective(sigma / exp(x), angle_deg) * cos_of_degrees(angle_deg) / wavelength) ** 2
         return ln_ein(g)[0] + 2 * x - target
 
     low = log(sigma / 100)
@@ -174,21 +176,21 @@ def tau_for_sigma(angle_deg: float, sigma: float, wavelength: float = WAVELENGTH
     high = low + 4
     while miss(high) < 0:
         high += 4
-    return exp(_root(miss, low, high))
+    return exp(sign_change(miss, low, high))
 
 
 def emergence_angle(sigma: float, tau: float, wavelength: float = WAVELENGTH, omega: float = OMEGA) -> float | None:
     """Angle [deg] from which the mirror image stands out; 0 if it always does, None if it does not below 89.9°."""
 
     def excess(angle_deg):
-        g = (4 * pi * sigma * effective(sigma / tau, angle_deg) * _cos(angle_deg) / wavelength) ** 2
-        return ln_ein(g)[0] + 2 * log(tau) - _ln_target(angle_deg, wavelength, omega)
+        g = (4 * pi * sigma * effective(sigma / tau, angle_deg) * cos_of_degrees(angle_deg) / wavelength) ** 2
+        return ln_ein(g)[0] + 2 * log(tau) - ln_target(angle_deg, wavelength, omega)
 
     if excess(0.0) <= 0:
         return 0.0
     if excess(89.9) > 0:
         return None
-    return _root(excess, 0.0, 89.9)
+    return sign_change(excess, 0.0, 89.9)
 
 
 def contour(angle_deg: float, taus, wavelength: float = WAVELENGTH, omega: float = OMEGA) -> list[tuple[float, float]]:
@@ -203,7 +205,7 @@ def tau_steps(wavelength: float = WAVELENGTH, per_decade: int = 20) -> list[floa
 
 def effective(slope: float, angle_deg: float) -> float:
     """Effective over true roughness where light and eye are both at this angle: 1 seen steeply, less at grazing."""
-    cot = _cos(angle_deg) / max(sin(radians(angle_deg)), 1e-300)
+    cot = cos_of_degrees(angle_deg) / max(sin(radians(angle_deg)), 1e-300)
     spread = 2 / cot * erfc(0.5 * cot / slope) if cot < 60 * slope else 0.0
     return 1 / sqrt(1 + _lambert_w(spread * spread / (8 * pi)))
 
@@ -229,7 +231,7 @@ def ln_ein(g: float) -> tuple[float, float]:
 
 def _effective_sigma(angle_deg, tau, wavelength, omega):
     """The effective roughness that the criterion asks for, from Ein inverted by Newton; ln Ein is convex in ln g."""
-    target = _ln_target(angle_deg, wavelength, omega) - 2 * log(tau)
+    target = ln_target(angle_deg, wavelength, omega) - 2 * log(tau)
     x = target if target < 1 else log(target + 2 * log(target) + 2)
     for _ in range(100):
         value, rate = ln_ein(exp(x))
@@ -237,13 +239,13 @@ def _effective_sigma(angle_deg, tau, wavelength, omega):
         x -= step
         if abs(step) < 1e-15 * max(1.0, abs(x)):
             break
-    return wavelength * exp(0.5 * x) / (4 * pi * _cos(angle_deg))
+    return wavelength * exp(0.5 * x) / (4 * pi * cos_of_degrees(angle_deg))
 
 
-def _ln_target(angle_deg, wavelength, omega):
+def ln_target(angle_deg, wavelength, omega):
     """ln of tau² Ein(g) on the contour."""
     _check_angle(angle_deg)
-    return log(wavelength**2 / (pi * _cos(angle_deg) * omega))
+    return log(wavelength**2 / (pi * cos_of_degrees(angle_deg) * omega))
 
 
 def _lambert_w(z):
@@ -256,7 +258,8 @@ def _lambert_w(z):
     return w
 
 
-def _cos(degrees):
+def cos_of_degrees(degrees):
+    """cos of an angle [deg], exact at 90."""
     return sin(radians(90.0 - degrees)) if degrees > 45 else cos(radians(degrees))
 
 
@@ -274,7 +277,7 @@ def _check_slope(slope):
         )
 
 
-def _root(f, low, high):
+def sign_change(f, low, high):
     """Where `f` changes sign between `low` and `high`: regula falsi with halving (Illinois), to the last digits."""
     f_low, f_high = f(low), f(high)
     kept = 0

@@ -242,6 +242,7 @@ ACTS = {
     "roughness": {
         "--angle": Acts("--angle 60"),
         "--angle-error": Acts("--angle-error 1"),
+        "--angle-across": Acts("--angle-across 69", "roughness --angle 70 --slope 0.5"),
         "--highlight-half-width": Acts(line="roughness --angle 70", instead="roughness --highlight-half-width 8"),
         "--mirror": Acts(line="roughness --angle 70", instead="roughness --mirror {dimmed}"),
         "--slope": Acts("--slope 0.2"),

@@ -11,6 +11,7 @@ import pytest
 from brdfguide import exporters
 from brdfguide.exporters import coloured
 from brdfguide.models.surface import Surface
+from brdfguide.physics.geometry import Geometry, rows
 
 from .conftest import directions, vectors
 
@@ -113,27 +114,77 @@ def _uniform(kind: str, value):
     return kind, [data[place] for place in range(3)] if kind in ("color3", "vector3") else data
 
 
-@pytest.mark.validate
-@pytest.mark.browser
-def test_compiled_and_evaluated_the_generated_code_is_the_law(tmp_path):
+def evaluated(jobs: dict, tmp_path) -> dict:
+    """What the browser's shaders give for every job."""
     if not BROWSER:
         pytest.skip("no chromium on this machine")
-    surfaces = {case: coloured(Surface.named(case[0], values)) for case, values in CASES.items()}
-    geom = directions(60, seed=5, most=80.0)
-    light, view = vectors(geom)
-    jobs = {"vertex": VERTEX, "directions": np.stack([light, view], axis=1).tolist(), "pixels": {}, "cases": {}}
-    for (target, name), each in surfaces.items():
-        jobs["pixels"][target], numbers = generated(exporters.export(target, each).content)
-        jobs["cases"].setdefault(target, {})[name] = numbers
     page = tmp_path / "page.html"
-    page.write_text(PAGE.replace("JOBS", json.dumps(jobs).replace("</", "<\\/")))
+    page.write_text(PAGE.replace("JOBS", json.dumps({"vertex": VERTEX, **jobs}).replace("</", "<\\/")))
     words = [BROWSER, "--headless", "--no-sandbox", "--disable-background-networking", "--no-first-run"]
     words += ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
     words += [f"--user-data-dir={tmp_path / 'profile'}", "--virtual-time-budget=4000", "--dump-dom", page.as_uri()]
     run = subprocess.run(words, capture_output=True, text=True, timeout=300)
     found = json.loads(re.search(r"<pre>(.*?)</pre>", run.stdout, re.S)[1] or "{}")
-    assert found.keys() == {target for target, _ in CASES}, run.stderr[-2000:]
+    assert found.keys() == jobs["pixels"].keys(), run.stderr[-2000:]
+    for target, each in found.items():
+        assert isinstance(each, dict), f"{target}: {each}"
+    return found
+
+
+@pytest.mark.validate
+@pytest.mark.browser
+def test_compiled_and_evaluated_the_generated_code_is_the_law(tmp_path):
+    surfaces = {case: coloured(Surface.named(case[0], values)) for case, values in CASES.items()}
+    geom = directions(60, seed=5, most=80.0)
+    light, view = vectors(geom)
+    jobs = {"directions": np.stack([light, view], axis=1).tolist(), "pixels": {}, "cases": {}}
     for (target, name), each in surfaces.items():
-        assert isinstance(found[target], dict), f"{target}: {found[target]}"
+        jobs["pixels"][target], numbers = generated(exporters.export(target, each).content)
+        jobs["cases"].setdefault(target, {})[name] = numbers
+    found = evaluated(jobs, tmp_path)
+    for (target, name), each in surfaces.items():
         shown = np.array(found[target][name]) / geom.cos_i
         np.testing.assert_allclose(shown, each.rgb(geom), rtol=WITHIN, err_msg=f"{target} {name}")
+
+
+def upward(theta_deg, phi_deg) -> np.ndarray:
+    """Unit vectors (directions, 3)."""
+    theta, phi = np.radians(theta_deg), np.radians(phi_deg)
+    return np.stack((np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)), axis=-1)
+
+
+AXIS = float(np.radians(30.0))
+GRAINED = {
+    ("openpbr", "metal"): ("ggx-aniso", {"alpha_x": 0.3, "alpha_y": 0.1, "n": 1.0, "k": 4.0}),
+    ("standard-surface", "metal"): ("ggx-aniso", {"alpha_x": 0.3, "alpha_y": 0.1, "n": 1.0, "k": 4.0}),
+    ("gltf-pbr", "metal"): ("ggx-aniso", {"alpha_x": 0.3, "alpha_y": 0.1, "n": 1.0, "k": 4.0}),
+    ("gltf-pbr", "body"): ("lambertian+ggx-aniso", {"alpha_x": 0.4, "alpha_y": 0.2, "n": 1.6}),
+}
+
+
+@pytest.mark.validate
+@pytest.mark.browser
+def test_the_generated_code_has_the_streak_across_the_grain(tmp_path):
+    surfaces = {}
+    for case, (law, values) in GRAINED.items():
+        given = {f"ggx-aniso.{name}": value for name, value in (values | {"axis": AXIS}).items()}
+        surfaces[case] = coloured(Surface.named(law, given))
+    rng = np.random.default_rng(6)
+    ends = np.array([30.0, 210.0, 120.0, 300.0])  # along the streak, and across it
+    phi_i, theta_i = np.append(ends + 180, rng.uniform(0, 360, 40)), np.append(np.full(4, 0.5), rng.uniform(0, 75, 40))
+    phi_r, theta_r = np.append(ends, phi_i[4:] + rng.uniform(120, 240, 40)), np.append(np.full(4, 25.0), theta_i[4:])
+    geom = rows(Geometry.from_degrees(theta_i, phi_i, theta_r, phi_r))
+    light, view = upward(theta_i, phi_i), upward(theta_r, phi_r)
+    jobs = {"directions": np.stack([light, view], axis=1).tolist(), "pixels": {}, "cases": {}}
+    made = {case: exporters.export(case[0], surface) for case, surface in surfaces.items()}
+    for (target, name), each in made.items():
+        jobs["pixels"][target], numbers = generated(each.content)
+        jobs["cases"].setdefault(target, {})[name] = numbers
+    found = evaluated(jobs, tmp_path)
+    for case, each in made.items():
+        shown = np.array(found[case[0]][case[1]]) / geom.cos_i
+        along, across = shown[:2, 0], shown[2:4, 0]
+        assert along.min() > (2 if case[1] == "metal" else 1.05) * across.max(), case
+        np.testing.assert_allclose(shown[:4], surfaces[case].rgb(geom)[:4], rtol=0.1, err_msg=str(case))
+        if case[0] == "gltf-pbr":
+            np.testing.assert_allclose(shown, each.statement.shown(geom), rtol=WITHIN, err_msg=str(case))

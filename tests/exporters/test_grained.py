@@ -8,11 +8,12 @@ import pytest
 
 from brdfguide import exporters, models
 from brdfguide.errors import NoAnswer
-from brdfguide.exporters import _grained
+from brdfguide.exporters import _grained, cards, conversions
 from brdfguide.exporters.exporter import ColouredSurface
 from brdfguide.physics.geometry import Geometry, rows
 
 TARGETS = [name for name in exporters.names() if exporters.get(name).grained]
+OFF = {"gltf-pbr": 0.12}  # rms ln of a shader that masks both directions with one width
 WIDE, NARROW, AXIS = 0.3, 0.075, 30.0
 
 
@@ -38,7 +39,7 @@ def test_what_the_file_shows_has_its_streak_along_the_axis(target):
     assert along == pytest.approx(back, rel=1e-9) and across == pytest.approx(other, rel=1e-9)
     assert along > 10 * across
     np.testing.assert_allclose(streak(statement.shown), streak(surface.rgb), rtol=0.12)
-    assert statement.rms_ln < 0.03 and not any("grain" in each for each in statement.lost)
+    assert statement.rms_ln < OFF.get(target, 0.03) and not any("grain" in each for each in statement.lost)
     turned = [each for each in statement.notes if f"{AXIS:g} degrees" in each]
     assert turned or target == "radiance"
 
@@ -63,7 +64,7 @@ def test_materialx_gives_both_widths_back(target):
     else:
         ratio = 1 - values["specular_anisotropy"]
         wide = r**2 / np.sqrt(ratio)
-        assert 360 * values["specular_rotation"] == pytest.approx(AXIS)
+        assert 360 * values["specular_rotation"] == pytest.approx(180 - AXIS)  # clockwise
     assert wide == pytest.approx(WIDE, rel=0.02) and ratio * wide == pytest.approx(NARROW, rel=0.02)
 
 
@@ -116,3 +117,75 @@ def test_mitsuba_shows_the_streak_that_the_statement_has():
         out = vector(35.0, turn + 170.0)
         got.append(np.array(bsdf.eval(mitsuba.BSDFContext(), si, out))[0] / out[2])
     np.testing.assert_allclose(got, made.statement.shown(geom)[:, 0], rtol=1e-4)
+
+
+def test_gltf_pbr_gives_both_widths_and_the_axis_back():
+    text = exporters.export("gltf-pbr", brushed()).content
+    values = {name: float(value) for name, value in re.findall(r'name="(\w+)" type="float" value="([^"]+)"', text)}
+    alpha = values["roughness"] ** 2
+    assert alpha == pytest.approx(NARROW, rel=0.03)
+    assert alpha + (1 - alpha) * values["anisotropy_strength"] ** 2 == pytest.approx(WIDE, rel=0.03)
+    assert np.degrees(values["anisotropy_rotation"]) == pytest.approx(AXIS)
+    assert "roughness_anisotropy" not in text
+
+
+def test_openpbrs_file_turns_its_tangent_by_a_node():
+    text = exporters.export("openpbr", brushed()).content
+    [joined] = re.findall(r'name="geometry_tangent" type="vector3" nodename="(\w+)"', text)
+    node = re.search(rf'<rotate3d name="{joined}" type="vector3">(.*?)</rotate3d>', text, re.S)[1]
+    assert float(re.search(r'name="amount" type="float" value="([^"]+)"', node)[1]) == pytest.approx(-AXIS)
+    assert "geometry_tangent" not in exporters.export("openpbr", brushed(axis=0.0)).content
+
+
+@pytest.mark.parametrize("axis", [0.0, 30.0, 90.0, 150.0])
+def test_standard_surface_turns_clockwise(axis):
+    text = exporters.export("standard-surface", brushed(axis=axis)).content
+    found = re.search(r'name="specular_rotation" type="float" value="([^"]+)"', text)
+    assert (0.0 if found is None else 360 * float(found[1])) == pytest.approx((180 - axis) % 180)
+
+
+def test_disney_has_its_aspect_and_gives_the_widths_back():
+    found = conversions.convert(brushed(alpha_x=0.3, alpha_y=0.1), "disney")
+    assert found.rms_ln < 0.03
+    aspect = np.sqrt(1 - 0.9 * found.numbers["anisotropic"])
+    alpha = found.numbers["roughness"] ** 2
+    assert (alpha / aspect, alpha * aspect) == pytest.approx((0.3, 0.1), rel=0.03)
+    assert found.numbers["axis"] == pytest.approx(AXIS)
+    given = {name: [value] for name, value in found.numbers.items()}
+    back = conversions.convert(conversions.read("disney", given), "ggx-aniso")
+    assert back.rms_ln < 0.1 and back.numbers["axis"] == pytest.approx(AXIS)
+    assert (back.numbers["alpha_x"], back.numbers["alpha_y"]) == pytest.approx((0.3, 0.1), rel=0.1)
+
+
+def test_usd_gets_a_round_lobe_and_says_so_and_merl_refuses():
+    statement = exporters.export("usd", brushed()).statement
+    assert statement.status == "lossy" and any(each.startswith("the grain") for each in statement.lost)
+    assert streak(statement.shown)[0] == pytest.approx(streak(statement.shown)[2], rel=1e-9)
+    with pytest.raises(NoAnswer, match="changes as the sample turns"):
+        exporters.export("merl", brushed())
+
+
+TYPED = {
+    "Blender": lambda n: (n["Roughness"], np.sqrt(1 - 0.9 * n["Anisotropic"])),
+    "Mitsuba": lambda n: (n["roughness"], np.sqrt(1 - 0.9 * n["anisotropic"])),
+    "Arnold, Maya, Houdini": lambda n: (n["specular_roughness"], np.sqrt(1 - n["specular_anisotropy"])),
+}
+
+
+def test_what_is_typed_into_programs_holds_both_widths():
+    found = {card.program: card for card in cards.cards([brushed(alpha_x=0.3, alpha_y=0.1)])}
+    for program, widths in TYPED.items():
+        roughness, aspect = widths(found[program].numbers)
+        assert (roughness**2 / aspect, roughness**2 * aspect) == pytest.approx((0.3, 0.1), rel=0.05), program
+    assert 360 * found["Blender"].numbers["Anisotropic Rotation"] == pytest.approx(AXIS)
+    assert np.degrees(found["glTF, three.js"].numbers["anisotropyRotation"]) == pytest.approx(AXIS)
+    assert any("u lies at azimuth 30 degrees" in note for note in found["Mitsuba"].notes)
+    assert found["Radiance"].numbers.keys() >= {"roughness along u", "roughness across u"}
+    for program in ("Unreal", "Substance"):
+        assert any("has a grain, and this shader none" in each for each in found[program].cannot)
+
+
+def test_what_masking_with_one_width_costs_is_said():
+    for target in ("openpbr", "standard-surface"):
+        notes = exporters.export(target, brushed()).statement.notes
+        assert any("MaterialX masks light and view with one width" in each for each in notes)
