@@ -17,6 +17,7 @@ CHECKS = {
     "horizon": (checks.horizon, 0.0, "what is sent from or to below the horizon"),
     "reciprocity": (checks.reciprocity, 1e-12, "relative change when light and detector change places"),
     "rotation": (checks.rotation, 1e-8, "relative change when the surface is turned"),
+    "grain": (checks.grain, 1e-8, "relative change when surface and axis are turned, or both widths change places"),
     "energy": (checks.energy, 1e-3, "reflectance above 1, to 0.01° from grazing"),
     "normal": (limits.normal, 1e-6, "relative change within 1e-9° of the normal"),
     "grazing": (limits.grazing, 0.0, "no value 1e-9° above the horizon"),

@@ -117,6 +117,41 @@ def rotation(term: Model) -> Outcome:
     return worst.outcome()
 
 
+def grain(term: Model) -> Outcome:
+    """Relative change of a law with an axis when directions and axis are turned together, when all is turned by half a
+    turn, and when both widths change places with the axis a quarter of a turn on."""
+    rng, worst = np.random.default_rng(29), Worst()
+    if "axis" not in term.defaults():
+        return worst.outcome()
+    theta_i, theta_r = rng.uniform(0, 89.99, 300), rng.uniform(0, 89.99, 300)
+    phi_i, phi = np.round(rng.uniform(0, 360, 300), 3), np.round(rng.uniform(0, 360, 300), 3)
+    phi[::2] = 180 + np.round(rng.normal(0, 5, 150), 3)  # half of them near a streak
+    theta_r[::2] = np.abs(theta_i[::2] + rng.normal(0, 5, 150)) % 89.99
+    straight, turned, half = (
+        rows(Geometry.from_degrees(theta_i, phi_i + turn, theta_r, phi_i + phi + turn)) for turn in (0.0, 103.5, 180.0)
+    )
+    for values in parameter_sets(term, 29):
+        f = term(straight, **values)
+        others = [term(turned, **values | {"axis": (values["axis"] + np.radians(103.5)) % np.pi}), term(half, **values)]
+        exchanged = _widths_exchanged(term, values)
+        others += [] if exchanged is None else [term(straight, **exchanged)]
+        for g in others:
+            worst.see(np.abs(f - g) / np.maximum(np.maximum(np.abs(f), np.abs(g)), 1e-200), straight, values)
+    return worst.outcome()
+
+
+def _widths_exchanged(term: Model, values: dict) -> dict | None:
+    """The same surface with both widths in the other order; None where the law has one order only."""
+    if term.grain is None:
+        return None
+    names = (term.grain.first, term.grain.second)
+    wide, narrow = term.grain.widths(*(values[name] for name in names))
+    found = dict(zip(names, term.grain.values(narrow, wide), strict=True))
+    if any(not term.parameter(name).low <= value <= term.parameter(name).high for name, value in found.items()):
+        return None
+    return values | found | {"axis": (values["axis"] + 0.5 * np.pi) % np.pi}
+
+
 def continuity(term: Model, count: int = 1, points: int = 1500, suspects: int = 4) -> Outcome:
     """The largest jump, of the values beside it, along a parameter or an angle.
 

@@ -24,6 +24,8 @@ KEPT = 2.0  # ln below the peak
 BODY = 0.1  # quantile of the values of an incidence that is taken for the body's
 CLEAR = 1.5  # times the body that the sum must be: the lobe at least half as bright
 FEWEST = 8  # values of an incidence
+FEWEST_OF_SCAN = 5  # values of the peak of one scan
+PLANE_DEG = 1.0  # within which a value lies in the plane of incidence
 MOST_INCIDENCES = 24  # of scattered directions, which stand for hundreds
 LEAST_AXES = 0.02  # of the trace of the design, its least part where the ellipse is determined
 
@@ -74,6 +76,48 @@ def lobe_ellipse(measurement: Measurement) -> Ellipse | None:
         return float(np.std(values, ddof=1) / np.sqrt(len(values))) if len(values) > 1 else float("inf")
 
     return Ellipse(alpha_x, alpha_y, axis, error(ln_ratios), error(turns), len(each), two is None)
+
+
+@formed
+def widths_of_turns(measurement: Measurement) -> dict[float, float]:
+    """Azimuth of the light [rad] -> width over slopes in its plane of incidence, each turn by itself, median over
+    incidences; without those whose scans show no peak on both sides."""
+    turns, geom = turn_of_each(measurement.geom), measurement.geom
+    if turns is None:
+        return {}
+    in_plane = geom.off_plane_deg[:, 0] < PLANE_DEG
+    found: dict[float, float] = {}
+    for turn in np.unique(turns):
+        azimuth = float(np.radians(np.median(np.remainder(geom.phi_i_deg[turns == turn, 0], 180.0))))
+        widths = []
+        for theta_i, rows in measurement.theta_i_groups.items():
+            mine = rows[(turns[rows] == turn) & in_plane[rows]]
+            width = _width_of_scan(measurement, mine, azimuth) if theta_i <= STEEPEST_DEG else None
+            widths += [] if width is None else [width]
+        if widths:
+            found[azimuth] = float(np.median(widths))
+    return found
+
+
+def _width_of_scan(measurement: Measurement, rows, azimuth: float) -> float | None:
+    """1/√m of ln = c + d s - m s² over the peak of one scan."""
+    geom, level = measurement.geom, np.exp(row_median(measurement.ln[rows]))
+    rows, level = rows[np.isfinite(level)], level[np.isfinite(level)]
+    if len(rows) < FEWEST:
+        return None
+    body = float(np.quantile(level, BODY))
+    lobe = level - body
+    kept = (lobe > np.exp(-KEPT) * lobe.max()) & (level > CLEAR * body)
+    if np.count_nonzero(kept) < FEWEST_OF_SCAN:
+        return None
+    rows = rows[kept]
+    x, y = (each[rows, 0] / geom.v_z[rows, 0] for each in geom.v_xy)
+    slope = x * np.cos(azimuth) + y * np.sin(azimuth)
+    if not slope.min() < 0 < slope.max():
+        return None
+    ln = np.log(lobe[kept] * geom.cos_cos[rows, 0]) - 2 * geom.ln_sec2_h[rows, 0]
+    bend = np.polynomial.polynomial.polyfit(slope, ln, 2)[2]
+    return float((-bend) ** -0.5) if bend < 0 else None
 
 
 def two_azimuths(measurement: Measurement) -> tuple[float, float] | None:

@@ -71,6 +71,13 @@ class Geometry:
         wavelength = np.reshape(self.wavelength, (-1, 1)) if np.ndim(self.wavelength) else self.wavelength
         return Geometry(self.directions.transposed, wavelength)
 
+    def at_azimuth(self, azimuth_deg: float) -> "Geometry":
+        """The same with light and detector turned about the normal by an angle [deg], counter-clockwise."""
+        if azimuth_deg == 0:
+            return self
+        directions = replace(self.directions, phi_i_deg=self.directions.phi_i_deg + azimuth_deg)
+        return Geometry(directions, self.wavelength)
+
     def at(self, wavelength) -> "Geometry":
         """The same directions at another wavelength [µm], with what was formed from them so far."""
         return self if wavelength is self.wavelength else Geometry(self.directions, wavelength)

@@ -9,7 +9,7 @@ import pytest
 from brdfguide import models
 from brdfguide.audit import audit, fitted
 from brdfguide.cli import main
-from brdfguide.models import ward
+from brdfguide.models import ggx_aniso, ward
 from brdfguide.models.surface import Surface
 
 QUICK = (
@@ -65,6 +65,15 @@ def test_wrong_jacobian_fails():
     found = verdicts(replace(ward.MODEL, gradient=wrong))
     assert found.pop("gradient") == "fails"
     assert set(found.values()) == {"holds"}
+
+
+def test_an_axis_that_turns_the_wrong_way_fails():
+    def mirrored(geom, *, axis, **values):
+        return ggx_aniso.MODEL.brdf(geom, axis=np.pi - axis, **values)
+
+    assert verdicts(ggx_aniso.MODEL, ("grain",)) == {"grain": "holds"}
+    assert verdicts(replace(ggx_aniso.MODEL, brdf=mirrored), ("grain",)) == {"grain": "fails"}
+    assert verdicts(ward.MODEL, ("grain",)) == {}
 
 
 def test_switch_between_two_formulas_fails_continuity():

@@ -6,7 +6,9 @@ from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter
 
 from ... import printable
 from ...data.measurement import Measurement
+from ...data.turning import turn_of_each
 from . import style
+from .grain import HEIGHT_MM, draw_grain, grain_of
 
 RAMP = LinearSegmentedColormap.from_list("incidence", ["#56B4E9", "#0072B2", "#5B3A8C", "#CC5500", "#E69F00"])
 SHADE = LinearSegmentedColormap.from_list("plane", ["#CFE3F2", "#0072B2"])
@@ -16,13 +18,18 @@ MOST_SCANS = 6
 
 
 def plot_survey(measurement: Measurement, spiky, pairs, level, path, title: str, theme: str = style.LIGHT) -> None:
-    """Five panels into `path`.
+    """Five panels into `path`, and three of a grain where the data have one.
 
     `pairs` as from `reciprocity.exchanged_pairs`, `level` as from `reflectance.measured_reflectance`; either may be
     None.
     """
     with style.look():
-        fig = style.figure(180, 132)
+        grain = grain_of(measurement)
+        whole = style.figure(180, 132 if grain is None else 132 + HEIGHT_MM)
+        fig = whole
+        if grain is not None:
+            fig, under = whole.subfigures(2, 1, squeeze=False, height_ratios=(132.0, HEIGHT_MM))[:, 0]
+            draw_grain(under, grain)
         grid = fig.add_gridspec(2, 3, height_ratios=(1, 1.08))
 
         def norm(theta_i):
@@ -33,8 +40,8 @@ def plot_survey(measurement: Measurement, spiky, pairs, level, path, title: str,
         _energy(fig.add_subplot(grid[0, 2]), level, norm)
         _plane(fig.add_subplot(grid[1, :2]), measurement, spiky, norm)
         _exchange(fig.add_subplot(grid[1, 2]), pairs)
-        style.origin(fig, title)
-        style.save(fig, path, theme)
+        style.origin(whole, title)
+        style.save(whole, path, theme)
 
 
 def _dome(axes, measurement: Measurement) -> None:
@@ -92,6 +99,11 @@ def _chart(axes, measurement: Measurement) -> None:
 
 def _plane(axes, measurement: Measurement, spiky, norm) -> None:
     """The values nearest to the plane of incidence against signed theta_r, brightest channel."""
+    turns = turn_of_each(measurement.geom)
+    of_one = turns is not None and measurement.in_plane
+    if of_one:  # scans of several turns are no one curve
+        picked = turns == turns[np.argmin(np.remainder(measurement.geom.phi_i_deg[:, 0], 180.0))]
+        measurement, spiky = measurement[picked], spiky[picked]
     geom, usable = measurement.geom, measurement.usable
     channel = int(np.argmax(np.sum(np.where(usable, measurement.brdf, 0.0), axis=0)))
     signed, value = geom.signed_theta_r_deg[:, 0], measurement.brdf[:, channel]
@@ -129,6 +141,8 @@ def _plane(axes, measurement: Measurement, spiky, norm) -> None:
     where = "in the plane of incidence" if width < 1 else f"within {width:g}° of the plane"
     if width >= 90:
         where = "all directions"
+    if of_one:
+        where += f", light at azimuth {np.median(np.remainder(geom.phi_i_deg, 180.0)):g}°"
     axes.set_title(f"d  {where}" + (", spikes ringed" if np.any(spiky) else ""))
 
 

@@ -95,12 +95,14 @@ def nominal_channel(measurement: Measurement) -> int:
     return int(np.argmin(np.where(filled, np.abs(wavelength - NOMINAL_UM), np.inf)))
 
 
-def curve(line: Line, channel: int, theta_i: float, theta_r, solid_angle: float | None = None) -> np.ndarray:
-    """What an instrument reads of it in the plane of incidence, in one channel (samples,).
+def curve(
+    line: Line, channel: int, theta_i: float, theta_r, solid_angle: float | None = None, azimuth: float = 0.0
+) -> np.ndarray:
+    """What an instrument reads of it in the plane of incidence of light at an azimuth [deg], in one channel (samples,).
 
     Without an instrument's solid angle the mirror part is what a receiver of `MIRROR_DEG` would read.
     """
-    surface, geom = line.surface.channel(channel), rows(in_plane(theta_i, theta_r))
+    surface, geom = line.surface.channel(channel), rows(in_plane(theta_i, theta_r).at_azimuth(azimuth))
     values = reading(surface, Instrument(geom, solid_angle))[:, 0]
     if solid_angle is None and line.shows_image:
         receiver = Instrument(geom, solid_angle_of(MIRROR_DEG))

@@ -34,7 +34,8 @@ def plot_polar(ranking, measurement: Measurement, path, theme: str = style.LIGHT
             _light(axis, panel.theta_i, high - low)
             for line in lines:
                 grid = grid_of(panel.theta_i, -89.0, 89.0)
-                values = curve(line, channel, panel.theta_i, grid, measurement.solid_angle)
+                seen_by = measurement.solid_angle
+                values = curve(line, channel, panel.theta_i, grid, seen_by, panel.azimuth)
                 axis.plot(
                     np.radians(grid), _radius(values, low, high), zorder=3 if line.recommended else 2, **line.look
                 )

@@ -59,7 +59,7 @@ def _curves(axis, lines: list[Line], panel: Panel, channel: int, solid_angle: fl
     grid = grid_of(panel.theta_i, max(least, -89.0), min(angular_range, 89.0))
     sparse, greatest = len(panel.value) < SPARSE, 0.0
     for number, line in enumerate(lines):
-        values = curve(line, channel, panel.theta_i, grid, solid_angle)
+        values = curve(line, channel, panel.theta_i, grid, solid_angle, panel.azimuth)
         greatest = max(greatest, float(np.max(values)) if line.shows_image else 0.0)
         above = 3.5 if line.recommended else 3 - 0.01 * number
         axis.plot(grid, without_zeros(values), zorder=above, **line.look)

@@ -4,11 +4,12 @@ A slice is interpolated where the data are smooth, in the angles of the half vec
 1998), and never beyond them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...data.measurement import Measurement
+from ...data.turning import turn_of_each
 from ...physics.geometry import Geometry, in_plane, rows
 
 # (azimuth off the plane, spread of theta_i) [deg]: as narrow a slice of the data as still has points in it
@@ -34,6 +35,7 @@ class Panel:
     value: np.ndarray  # [1/sr]
     geom: Geometry  # of these values, rows
     rows: np.ndarray | None = None  # of the measurement; None where it is interpolated
+    azimuth: float = 0.0  # of the light [deg], where the sample was turned
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,9 @@ class Panels:
 
 def panels(measurement: Measurement, channel: int, most: int = 3) -> Panels:
     """Well-spread incidences with their values; none where no direction is near the plane of incidence."""
+    turns = turn_of_each(measurement.geom)
+    if turns is not None and measurement.in_plane:
+        return _of_one_turn(measurement, turns, channel, most)
     usable = measurement.usable[:, channel]
     if not usable.any():
         return Panels((), "no value")
@@ -66,6 +71,17 @@ def panels(measurement: Measurement, channel: int, most: int = 3) -> Panels:
             break
     where = "in plane" if off_plane < 1 else f"within {off_plane:g}° of the plane of incidence"
     return Panels(_spread(near, most), where)
+
+
+def _of_one_turn(measurement: Measurement, turns, channel: int, most: int) -> Panels:
+    """The same of the first turn of the sample alone: scans of several turns are no one curve."""
+    picked = np.flatnonzero(turns == turns[np.argmin(np.remainder(measurement.geom.phi_i_deg[:, 0], 180.0))])
+    azimuth = float(np.median(np.remainder(measurement.geom.phi_i_deg[picked, 0], 180.0)))
+    found = panels(measurement[picked], channel, most)
+    shown = tuple(
+        replace(each, rows=None if each.rows is None else picked[each.rows], azimuth=azimuth) for each in found.shown
+    )
+    return Panels(shown, f"{found.how}, light at azimuth {azimuth:g}°")
 
 
 def _scans(measurement: Measurement, channel: int, off_plane: float, spread: float) -> tuple[list[Panel], int]:

@@ -3,16 +3,28 @@
 from ...data.measurement import Measurement
 from . import spheres, style
 from .cost import draw_cost, plot_cost
+from .grain import HEIGHT_MM, draw_grain, grain_of, plot_grain
 from .lines import lines_of, shown_lines, title_of
 from .lobes import draw_lobes, plot_lobes
+
+GRAIN_WORDS = (
+    "The grain: scans under turns of the sample; the peak over facet slopes with the ellipse of the data (dashed) and "
+    "of the model; the width of the lobe against the azimuth of the plane of incidence."
+)
 
 
 def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIGHT) -> None:
     """Draw the ranking into `path`, a .png, .svg or .pdf file, light or dark."""
     with style.look():
-        fig = style.figure(180, 176)
-        above, below = fig.subfigures(2, 1, squeeze=False, height_ratios=(1.8, 1))[:, 0]
-        lines = lines_of(ranking)
+        lines, grain = lines_of(ranking), grain_of(measurement)
+        if grain is None:
+            fig = style.figure(180, 176)
+            above, below = fig.subfigures(2, 1, squeeze=False, height_ratios=(1.8, 1))[:, 0]
+        else:
+            fig = style.figure(180, 176 + HEIGHT_MM)
+            parts = (113.0, HEIGHT_MM, 63.0)
+            above, middle, below = fig.subfigures(3, 1, squeeze=False, height_ratios=parts)[:, 0]
+            draw_grain(middle, grain, lines)
         draw_lobes(above, shown_lines(lines), measurement, title_of(lines, measurement))
         draw_cost(below, lines)
         style.save(fig, path, theme)
@@ -25,11 +37,13 @@ def ranking_figures(ranking, measurement: Measurement) -> list[tuple[bytes, str]
     plotted = shown_lines(lines)
     pick = next((line for line in plotted if line.recommended), plotted[0])
     pair = [pick] + [line for line in plotted[-1:] if line is not pick]
+    grain = grain_of(measurement)
     return [
         (
             style.figure_file(plot_lobes(plotted, measurement, title=title_of(lines, measurement))),
             "BRDF against reflection angle, on a log axis as the guide plots it, and what each model leaves over.",
         ),
+        *([] if grain is None else [(style.figure_file(plot_grain(grain, lines)), GRAIN_WORDS)]),
         (
             style.figure_file(plot_cost(lines)),
             "Error against run time. A model on the front is beaten by no other in both.",

@@ -36,7 +36,8 @@ def sketch_lobes(line: lines.Line, measurement: Measurement, width: int = 100, c
     blocks = []
     for panel in shown:
         grid = np.linspace(least, angular_range, 8 * columns + 1)
-        model = np.maximum(lines.curve(line, channel, panel.theta_i, grid, measurement.solid_angle), 1e-30)
+        model = lines.curve(line, channel, panel.theta_i, grid, measurement.solid_angle, panel.azimuth)
+        model = np.maximum(model, 1e-30)
         blocks.append(
             (
                 f"theta_i {panel.theta_i:g}",
