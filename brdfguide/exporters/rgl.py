@@ -1,25 +1,33 @@
 """RGL `.bsdf`, in colour: a table of any model for Mitsuba's `measured` plugin in its RGB variants.
 
 Mitsuba importance-samples it, so a He-Torrance surface renders like any other. An ideal mirror has no place in a
-table and is blurred. Spectral variants and pbrt want the target rgl-spectral: one file cannot serve both.
+table and is blurred; a grain gives an axis of azimuths. Spectral variants and pbrt want the target rgl-spectral: one
+file cannot serve both.
 """
 
 import numpy as np
 
 from ..physics.geometry import Geometry
+from . import _grained
 from ._directions import judged_over
 from ._shown import seen_of
 from .exporter import ColouredSurface, Export, Exporter, Statement, comment_lines, status_of
 from .tables.blurred import blurred
-from .tables.tensor import best_table, packed, table_fields
+from .tables.tensor import best_table, packed
+from .tables.turned_tensor import best_turned_table
 
 
 def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """Bytes and their Statement."""
     original, (surface, lost) = surface, blurred(surface)
     geom, wanted, over = judged_over(surface, geom)
-    made = best_table(lambda directions: np.maximum(surface.rgb(directions), 0.0), geom, wanted)
-    shape = {"theta_i": len(made.grid.theta_i), "half_vectors": made.grid.size**2}
+
+    def brdf(directions: Geometry) -> np.ndarray:
+        return np.maximum(surface.rgb(directions), 0.0)
+
+    made = (
+        best_turned_table(brdf, geom, wanted) if _grained.terms_that_turn(surface) else best_table(brdf, geom, wanted)
+    )
     status = status_of(made.rms_ln, lost)
     shown = made.read
     statement = Statement(
@@ -28,16 +36,14 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
         made.rms_ln,
         int(np.isfinite(wanted).any(axis=1).sum()),
         over,
-        shape,
+        made.size,
         lost,
         (made.note,),
         surface.colour.how,
         seen_of(original, shown),
         shown,
     )
-    return Export(
-        packed(table_fields(made.grid, made.spectra, "\n".join(comment_lines(surface, statement)), "rgb")), statement
-    )
+    return Export(packed(made.fields("\n".join(comment_lines(surface, statement)), "rgb")), statement)
 
 
-EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor, RGB: any model in Mitsuba's measured plugin", export)
+EXPORTER = Exporter(__name__, ".bsdf", "RGL tensor, RGB: any model in Mitsuba's measured plugin", export, grained=True)

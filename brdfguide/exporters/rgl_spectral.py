@@ -7,11 +7,13 @@ Red, green and blue stand at their nominal wavelengths, between which a reader i
 import numpy as np
 
 from ..physics.geometry import Geometry
+from . import _grained
 from ._directions import judged_over
 from ._shown import seen_of
 from .exporter import ColouredSurface, Export, Exporter, Refused, Statement, comment_lines, status_of
 from .tables.blurred import blurred
-from .tables.tensor import best_table, packed, table_fields
+from .tables.tensor import best_table, packed
+from .tables.turned_tensor import best_turned_table
 
 VISIBLE_NM = np.array([360.0, 830.0])
 
@@ -31,11 +33,12 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
             ),
         )
     order = np.argsort(nm)
-    made = best_table(surface.spectral, geom, wanted)
-    spectra, nm = made.spectra[:, order], nm[order]
+    turning = _grained.terms_that_turn(surface)
+    made = best_turned_table(surface.spectral, geom, wanted) if turning else best_table(surface.spectral, geom, wanted)
+    written, nm = made.of_channels(order), nm[order]
     if len(nm) == 1:
-        spectra, nm = np.repeat(spectra, 2, axis=1), VISIBLE_NM
-    shape = {"theta_i": len(made.grid.theta_i), "half_vectors": made.grid.size**2, "wavelengths": len(nm)}
+        written, nm = made.of_channels([0, 0]), VISIBLE_NM
+    shape = {**made.size, "wavelengths": len(nm)}
     status = status_of(made.rms_ln, lost)
 
     def shown(geom: Geometry) -> np.ndarray:
@@ -54,11 +57,13 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
         seen_of(original, shown),
         shown,
     )
-    return Export(
-        packed(table_fields(made.grid, spectra, "\n".join(comment_lines(surface, statement)), "spectra", nm)), statement
-    )
+    return Export(packed(written.fields("\n".join(comment_lines(surface, statement)), "spectra", nm)), statement)
 
 
 EXPORTER = Exporter(
-    __name__, ".bsdf", "RGL tensor by wavelength: any model in pbrt's and spectral Mitsuba's measured", export
+    __name__,
+    ".bsdf",
+    "RGL tensor by wavelength: any model in pbrt's and spectral Mitsuba's measured",
+    export,
+    grained=True,
 )

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from brdfguide import exporters, models
+from brdfguide.data import formats
 from brdfguide.errors import NoAnswer
 from brdfguide.exporters import _grained, cards, conversions
 from brdfguide.exporters.exporter import ColouredSurface
 from brdfguide.physics.geometry import Geometry, rows
 
-TARGETS = [name for name in exporters.names() if exporters.get(name).grained]
+TABLES = ("rgl", "rgl-spectral")  # hold the axis by themselves
+TARGETS = [name for name in exporters.names() if exporters.get(name).grained and name not in TABLES]
 OFF = {"gltf-pbr": 0.12}  # rms ln of a shader that masks both directions with one width
 WIDE, NARROW, AXIS = 0.3, 0.075, 30.0
 
@@ -96,6 +98,54 @@ def test_grains_that_cross_are_refused():
     values = {"ggx-aniso.alpha_y": 0.05, "ward-gmd-aniso.alpha_y": 0.05, "ward-gmd-aniso.axis": 1.0}
     with pytest.raises(NoAnswer, match="it has more than one grain"):
         exporters.export("mitsuba", ColouredSurface(law, law.defaults() | values))
+
+
+@pytest.fixture(scope="module")
+def turned_table():
+    return exporters.export("rgl", brushed())
+
+
+def test_rgl_has_an_axis_of_azimuths_that_holds_the_streak(turned_table):
+    statement = turned_table.statement
+    assert statement.rms_ln < 0.02 and statement.status == "refit" and statement.written["phi_i"] > 16
+    np.testing.assert_allclose(streak(statement.shown), streak(brushed().rgb), rtol=0.01)
+
+
+def test_rgl_is_read_back_with_its_rotations_and_the_same_grain(turned_table, tmp_path):
+    path = tmp_path / "grain.bsdf"
+    path.write_bytes(turned_table.content)
+    found = formats.read(path)
+    assert len(np.unique(np.round(found.geom.phi_i_deg, 3))) == turned_table.statement.written["phi_i"] - 1
+    some = found[np.arange(0, len(found.geom), 499)]
+    some = some[(np.maximum(some.geom.theta_i_deg, some.geom.theta_r_deg)[:, 0] < 75) & (some.brdf[:, 0] > 1e-3)]
+    assert len(some.geom) > 50
+    off = np.abs(some.brdf[:, 0] / brushed().rgb(some.geom)[:, 0] - 1)
+    assert np.quantile(off, 0.95) < 0.02
+
+
+@pytest.mark.validate
+def test_mitsuba_reads_the_turned_table_as_we_do(turned_table, tmp_path):
+    mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba: the reader of these exports")
+    mitsuba.set_variant("scalar_rgb")
+    path = tmp_path / "grain.bsdf"
+    path.write_bytes(turned_table.content)
+    bsdf, si = mitsuba.load_dict({"type": "measured", "filename": str(path)}), mitsuba.SurfaceInteraction3f()
+    rng = np.random.default_rng(3)
+    theta_i, phi_i = rng.uniform(0, 75, 60), rng.uniform(0, 360, 60)
+    theta_r = np.clip(np.abs(theta_i + rng.normal(0, 12, 60)), 0, 75)
+    phi_r = phi_i + 180 + rng.normal(0, 25, 60)
+    got = []
+    for light, azimuth, view, seen in zip(theta_i, phi_i, theta_r, phi_r, strict=True):
+        si.wi, out = upward(light, azimuth), upward(view, seen)
+        got.append(bsdf.eval(mitsuba.BSDFContext(), si, out)[0] / out[2])
+    geom = rows(Geometry.from_degrees(theta_i, phi_i, theta_r, phi_r))
+    np.testing.assert_allclose(got, turned_table.statement.shown(geom)[:, 0], rtol=1e-4)
+
+
+def upward(theta_deg, phi_deg):
+    """A unit vector as a list."""
+    theta, phi = np.radians(theta_deg), np.radians(phi_deg)
+    return [float(np.sin(theta) * np.cos(phi)), float(np.sin(theta) * np.sin(phi)), float(np.cos(theta))]
 
 
 @pytest.mark.validate

@@ -181,6 +181,19 @@ class Made:
         """BRDF (samples, channels) as a reader gets it."""
         return self.grid.read(geom, lambda node, j, i: self.spectra[node, :, j, i])
 
+    @property
+    def size(self) -> dict[str, int]:
+        """How many nodes there are."""
+        return {"theta_i": len(self.grid.theta_i), "half_vectors": self.grid.size**2}
+
+    def of_channels(self, places) -> "Made":
+        """The same with its channels in another order."""
+        return replace(self, spectra=self.spectra[:, places])
+
+    def fields(self, comment: str, name: str, wavelengths: np.ndarray | None = None) -> dict[str, np.ndarray]:
+        """The arrays of a file, in the database's order; `name` is that of the table, rgb or spectra."""
+        return table_fields(self.grid, self.spectra, comment, name, wavelengths)
+
 
 def best_table(brdf, geom: Geometry, wanted: np.ndarray) -> Made:
     """The first grid that is within CLOSE off the peak; the closest where none is, and then the note says so."""

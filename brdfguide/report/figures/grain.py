@@ -29,8 +29,8 @@ ROOM = 0.4  # of the logarithmic range, left below the scans for their legend
 
 
 @dataclass(frozen=True)
-class Grain:
-    """What is drawn of a measurement's grain."""
+class DrawnGrain:
+    """What is drawn of the grain of a measurement."""
 
     measurement: Measurement
     channel: int
@@ -38,7 +38,7 @@ class Grain:
     theta_i: float  # [deg] the incidence that is drawn
 
 
-def grain_of(measurement: Measurement) -> Grain | None:
+def grain_of(measurement: Measurement) -> DrawnGrain | None:
     """None where the data show none: neither a turned sample whose lobe is no circle, nor a lobe that is seen to be
     longer one way."""
     ellipse = lobe_ellipse(measurement)
@@ -50,10 +50,10 @@ def grain_of(measurement: Measurement) -> Grain | None:
     groups = {theta: rows_ for theta, rows_ in measurement.theta_i_groups.items() if theta <= STEEPEST_DEG}
     most = max(np.count_nonzero(usable[each]) for each in groups.values())
     full = [theta for theta, each in groups.items() if np.count_nonzero(usable[each]) >= 0.7 * most]
-    return Grain(measurement, channel, ellipse, min(full, key=lambda theta: abs(theta - USUAL_DEG)))
+    return DrawnGrain(measurement, channel, ellipse, min(full, key=lambda theta: abs(theta - USUAL_DEG)))
 
 
-def draw_grain(fig, grain: Grain, lines: Sequence[Line] = ()) -> None:
+def draw_grain(fig, grain: DrawnGrain, lines: Sequence[Line] = ()) -> None:
     """Three panels into a figure or a part of one, with the first of the lines whose law has a grain, if any."""
     line = next((each for each in lines if grain_widths(each.surface) is not None), None)
     whole = fig.add_gridspec(1, 3, width_ratios=(1.15, 1, 1))
@@ -62,7 +62,7 @@ def draw_grain(fig, grain: Grain, lines: Sequence[Line] = ()) -> None:
     _widths(fig.add_subplot(whole[2], projection="polar"), grain, line)
 
 
-def plot_grain(grain: Grain, lines: Sequence[Line] = ()):
+def plot_grain(grain: DrawnGrain, lines: Sequence[Line] = ()):
     """The same as a figure."""
     with style.look():
         fig = style.figure(180, HEIGHT_MM)
@@ -81,7 +81,7 @@ def grain_widths(surface: Surface) -> tuple[float, float, float] | None:
     return None
 
 
-def _scans(axes, grain: Grain, line: Line | None) -> None:
+def _scans(axes, grain: DrawnGrain, line: Line | None) -> None:
     """Values near the plane of incidence under up to three turns: along the axis, between, across it."""
     geom, channel = grain.measurement.geom, grain.channel
     usable = grain.measurement.usable[:, channel]
@@ -130,7 +130,7 @@ def _nearest(known, wanted: float) -> float:
     return float(known[np.argmin(np.abs((known - wanted + 90.0) % 180.0 - 90.0))])
 
 
-def _slopes(axes, grain: Grain, line: Line | None) -> None:
+def _slopes(axes, grain: DrawnGrain, line: Line | None) -> None:
     """ln of the values over facet slopes, both ends of a facet alike, with the ellipses."""
     geom = grain.measurement.geom
     here = np.flatnonzero(
@@ -167,7 +167,7 @@ def _draw_ellipse(axes, wide, narrow, axis, **look) -> None:
     axes.plot(x, y, **look)
 
 
-def _widths(axes, grain: Grain, line: Line | None) -> None:
+def _widths(axes, grain: DrawnGrain, line: Line | None) -> None:
     """Effective width against the azimuth of the plane of incidence, of each turn by itself and of the ellipses."""
     around = np.linspace(0, 2 * np.pi, 361)
     found = grain.ellipse
