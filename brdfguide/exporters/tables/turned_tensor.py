@@ -116,7 +116,7 @@ def _between(x, nodes) -> tuple[np.ndarray, np.ndarray]:
 
 
 def best_turned_table(brdf: Callable[[Geometry], np.ndarray], geom: Geometry, wanted: np.ndarray) -> TurnedTable:
-    """The first table that is within CLOSE in 95 of 100 directions off the peak, or the last; its note says how far off.
+    """The first table that is within CLOSE in 95 of 100 directions off the peak, or the last. Its note says it.
 
     Takes  brdf(geometry (samples, 1)) -> (samples, channels) [1/sr], the export's directions and the values there.
     Raises NoAnswer where all would be black.
