@@ -3,21 +3,24 @@
 from pathlib import Path
 from typing import Annotated
 
-from typer import Argument, Option
+from typer import Argument, Context, Option
 
 from ..errors import InputError
 from ._fitting import ModelsOption, expressions
-from ._options import JsonOption, QuietOption, answer, picture_file, progress
+from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, progress
+from ._request import refuse
 
 EXAMPLES = "Examples: brdfguide bench -m ggx,he-torrance | brdfguide bench examples/rough_plastic.csv --plot front.svg"
 
 
 def bench(
+    context: Context,
     data: Annotated[Path | None, Argument(help="Measured data to be wrong about; none: time alone.")] = None,
     models: ModelsOption = None,
     plot: Annotated[
         Path | None, Option("--plot", callback=picture_file, help="Draw error against run time (png, svg or pdf).")
     ] = None,
+    theme: ThemeOption = "light",
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -32,6 +35,8 @@ def bench(
 
     if plot is not None and data is None:
         raise InputError("--plot draws error against run time: give the measured data too")
+    if plot is None:
+        refuse(context, "theme", because="without --plot nothing is drawn")
     names = expressions(models)
     if data is None:
         ranked = None
@@ -53,7 +58,7 @@ def bench(
     if plot is not None:
         from ..report.figures import cost as drawing
 
-        drawing.write_cost(drawing.timed_lines(ranked, result), plot, max(row["n"] for row in result["rows"]))
+        drawing.write_cost(drawing.timed_lines(ranked, result), plot, max(row["n"] for row in result["rows"]), theme)
     answer(result, json, text)
 
 

@@ -8,7 +8,7 @@ from typer import Argument, Context, Option
 
 from ..errors import InputError
 from ._data import AnywayOption, ApertureOption
-from ._options import JsonOption, QuietOption, answer, picture_file, remark
+from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
 from ._request import refuse
 
 EXAMPLES = (
@@ -42,6 +42,7 @@ class CompareRequest:
         Path | None,
         Option("--plot", callback=picture_file, help="Draw both and their difference in lightness (png, svg or pdf)."),
     ] = None
+    theme: ThemeOption = "light"
     json: JsonOption = False
     quiet: QuietOption = False
 
@@ -57,7 +58,9 @@ def compare(request: CompareRequest) -> None:
     if request.to is None and len(request.surfaces) < 2:
         raise InputError("one surface has nothing to be compared with; name two, or a target with --to")
     if len(request.surfaces) > 2:
-        refuse(request.context, "plot", because=OF_TWO)
+        refuse(request.context, "plot", "theme", because=OF_TWO)
+    if request.plot is None:
+        refuse(request.context, "theme", because="without --plot nothing is drawn")
     if request.to is None:
         sides = [compared_side(words, request.anyway) for words in request.surfaces]
     else:
@@ -78,12 +81,12 @@ def compare(request: CompareRequest) -> None:
         return
     result = documents.of_pair(found[0])
     if request.plot:
-        draw(sides[0], sides[1], result, request.plot)
+        draw(sides[0], sides[1], result, request.plot, request.theme)
         remark(f"wrote {request.plot}", request.quiet)
     answer(result, request.json, texts.pair_text)
 
 
-def draw(one, other, result: dict, path: Path) -> None:
+def draw(one, other, result: dict, path: Path, theme: str) -> None:
     """The picture of two sides. Raises InputError for scattered samples."""
     from ..report.figures import style
     from ..report.figures.pair import pair_figure
@@ -91,4 +94,4 @@ def draw(one, other, result: dict, path: Path) -> None:
     measured = next((side.name for side in (one, other) if side.measured is not None), None)
     if measured:
         raise InputError(f"--plot: {measured} holds measured directions, and a sphere shows all of them; fit it first")
-    style.save(pair_figure(one, other, f"S {result['seen']:.1f} L*: {result['seen_words']}"), path)
+    style.save(pair_figure(one, other, f"S {result['seen']:.1f} L*: {result['seen_words']}"), path, theme)

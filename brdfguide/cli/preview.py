@@ -1,4 +1,4 @@
-"""`brdfguide preview SURFACE`: how it looks, on a sphere and a bent sheet, beside others."""
+"""`brdfguide preview SURFACE...`: how it looks among lights on a floor, beside others."""
 
 from pathlib import Path
 from typing import Annotated
@@ -10,43 +10,75 @@ from ._options import QuietOption, on_terminal, remark
 
 EXAMPLES = (
     'Examples: brdfguide preview "lambertian+ggx ggx.alpha=0.1" -o look.png | '
-    "brdfguide preview fit.json --compare fit.json#lambertian+phong --light back -o pair.png"
+    "brdfguide preview fit.json --compare fit.json#lambertian+phong --light back -o pair.png | "
+    "brdfguide preview ggx --row alpha=0.1..0.9 -o row.png | brdfguide preview fits/*.json -o sheet.png"
 )
+LARGE, SMALL, FEW = 512, 256, 2  # pixels of a surface, where there are few and where there are more
+MOST = 60  # surfaces of a sheet
 
 
 def preview(
     surface: Annotated[
-        str,
+        list[str],
         Argument(
-            metavar="SURFACE",
+            metavar="SURFACE...",
             help=(
-                'A model with its parameters in one word ("ward ward.alpha=0.1"), a fit (FIT.json, FIT.json#MODEL), '
-                "a material, or MATERIAL#MODEL."
+                'Models with their parameters in one word each ("ward ward.alpha=0.1"), fits (FIT.json, '
+                "FIT.json#MODEL), materials, or MATERIAL#MODEL; several make a contact sheet."
             ),
         ),
     ],
     compare: Annotated[
-        list[str] | None, Option("--compare", "-c", help="Another surface to stand beside it; repeatable.")
+        list[str] | None,
+        Option("--compare", "-c", help="Another surface beside it, and what differs in noticeable steps; repeatable."),
+    ] = None,
+    row: Annotated[
+        str | None, Option("--row", help="One number step by step, NAME=LOW..HIGH or NAME=LOW..HIGH/STEPS.")
     ] = None,
     output: Annotated[Path, Option("--output", "-o", help="The picture, .png, or .exr with linear radiances.")] = Path(
         "preview.png"
     ),
-    light: Annotated[str, Option("--light", help="Where the sun stands: front, side or back.")] = "side",
-    size: Annotated[int, Option("--size", help="Pixels, for each surface.")] = 512,
+    env: Annotated[
+        str,
+        Option("--env", help="What stands around: studio, overcast, room, sky, or an equirectangular FILE.exr."),
+    ] = "studio",
+    objects: Annotated[
+        str | None, Option("--object", help="What it is seen on: pair (the default), sphere, sheet, disc or knob.")
+    ] = None,
+    light: Annotated[
+        str | None, Option("--light", help="Where the main light stands: side (the default), front or back.")
+    ] = None,
+    size: Annotated[
+        int | None, Option("--size", help="Pixels, for each surface: 512, or 256 of more than two.")
+    ] = None,
     quiet: QuietOption = False,
 ) -> None:
-    """Render a surface on a sphere and a bent sheet under a small sun and a sky with a horizon, in linear light."""
+    """Render a surface on objects that stand on a floor among lights, in linear light; several side by side."""
+    from dataclasses import replace
     from functools import partial
 
-    from ..face import functions
+    from ..face import functions, surfaces
+    from ..face.looks import row_of
     from ..files import writable
 
-    if not 64 <= size <= 2048:
+    if size is not None and not 64 <= size <= 2048:
         raise InputError(f"--size {size}: a picture has 64 to 2048 pixels")
     if writable(output).suffix.lower() not in (".png", ".exr"):
         raise InputError(f"{output}: a preview is a .png or .exr")
+    if len(surface) > 1 and (compare or row):
+        option = "--compare" if compare else "--row"
+        raise InputError(f"{option}: wanted one surface before it, found {len(surface)}")
+    if compare and row:
+        raise InputError("--row: stands alone; without --compare")
+    shown: list = [*surface, *(compare or ())]
+    if row:
+        shown = row_of(surfaces.named_surface(surface[0]), row)
+    if len(shown) > MOST:
+        raise InputError(f"{len(shown)} surfaces; a sheet holds at most {MOST}")
+    side = size or (LARGE if len(shown) <= FEW else SMALL)
     shows = partial(_progress, quiet=quiet)
-    made = functions.preview(surface, *(compare or ()), size=size, light=light, progress=shows)
+    made = functions.preview(*shown, size=side, light=light, around=env, objects=objects, progress=shows)
+    made = replace(made, compared=bool(compare))
     made.save(output)
     remark(f"{output}: {' | '.join(each.name for each in made.surfaces)}", quiet)
 

@@ -9,7 +9,7 @@ from typer import Argument, Context, Option
 
 from ..errors import InputError, choices
 from ._fitting import assignments
-from ._options import JsonOption, QuietOption, answer, picture_file, remark
+from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
 from ._request import refuse
 
 EXAMPLES = (
@@ -95,6 +95,7 @@ class ScatterRequest:
     plot: Annotated[
         Path | None, Option("--plot", callback=picture_file, help="Draw it, log-log (png, svg or pdf).")
     ] = None
+    theme: ThemeOption = "light"
     json: JsonOption = False
     quiet: QuietOption = False
 
@@ -105,10 +106,12 @@ def scatter(request: ScatterRequest) -> None:
 
     document = _document(request)
     answer(document, request.json, text)
-    if request.plot is not None:
+    if request.plot is None:
+        refuse(request.context, "theme", because="without --plot nothing is drawn")
+    else:
         from ..report.figures.scatter import plot_scatter
 
-        plot_scatter(document, request.plot)
+        plot_scatter(document, request.plot, request.theme)
         remark(f"note: wrote {request.plot}", request.quiet)
 
 

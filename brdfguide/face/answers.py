@@ -150,11 +150,12 @@ class CompareAnswer:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Preview:
-    """Surfaces on a sphere and a bent sheet, side by side, in one light."""
+    """Surfaces on objects among surroundings, side by side, in one light."""
 
     surfaces: "tuple[ColouredSurface, ...]"
     radiance: np.ndarray  # (surfaces, size, size, 3) in linear sRGB; 1 is white at the horizon
-    light: str
+    about: str  # what lights them
+    compared: bool = True  # whether the picture shows how each differs from the first
 
     @cached_property
     def pixels(self) -> np.ndarray:
@@ -168,7 +169,7 @@ class Preview:
         """The picture with names, and with what differs between the surfaces, as a file."""
         from ..report.figures import spheres, style
 
-        return style.figure_file(spheres.preview_sheet(self.surfaces, self.radiance, self.light), "png")
+        return style.figure_file(spheres.preview_sheet(self.surfaces, self.radiance, self.about, self.compared), "png")
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the picture whole or not at all: .png for displays, .exr with radiances in linear sRGB, side by side.
@@ -200,7 +201,7 @@ class Preview:
             return made.read_bytes()
 
     def __repr__(self) -> str:
-        return f"preview of {' | '.join(each.name for each in self.surfaces)}, light from the {self.light}"
+        return f"preview of {' | '.join(each.name for each in self.surfaces)}: {self.about}"
 
     def _repr_png_(self) -> bytes:
         return self.png

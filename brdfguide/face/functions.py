@@ -233,24 +233,34 @@ def compare(one: Any, other: Any, *, aperture_deg: float | None = None) -> Compa
     return CompareAnswer(pair(compared_side(one), compared_side(other), solid_angle))
 
 
-def preview(surface: Any, *others: Any, size: int = 512, light: str = "side", progress=None, **values: Any) -> Preview:
-    """How surfaces look, on a sphere and a bent sheet under a small sun and a sky with a horizon.
+def preview(
+    surface: Any,
+    *others: Any,
+    size: int = 512,
+    light: str | None = None,
+    around: str = "studio",
+    objects: str | None = None,
+    progress=None,
+    **values: Any,
+) -> Preview:
+    """How surfaces look: on objects that stand on a chequered floor among lights.
 
-    Takes  Surfaces, answers or words; `values` are those of the first, as in `evaluate`; size, 64 to 2048 pixels; light
-    from the front, side or back; progress(name) gives a function of the share that is done, or None.
+    Takes  Surfaces, answers or words; `values` are those of the first, as in `evaluate`; size, 64 to 2048 pixels;
+    around, `studio`, `overcast`, `room` or an equirectangular .exr; or `sky`, a sphere and a bent sheet under a small
+    sun and a sky with a horizon; light from the front, side or back (of an .exr there is no such choice); objects,
+    `pair` (sphere and knob, or disc where there is a grain), `sphere`, `sheet`, `disc`, `knob`;
+    progress(name) gives a function of the share that is done, or None.
     Gives  a Preview: `pixels` (surfaces, size, size, 3) for displays, `radiance` in linear sRGB; a notebook shows it.
-    Raises InputError for another size or light.
+    Raises InputError for another size, light, object or surroundings.
     """
     from .. import exporters
-    from ..errors import choices
+    from ..errors import InputError
     from ..exporters.exporter import ColouredSurface
-    from ..report import render
+    from .looks import looks
 
-    if light not in render.LIGHTS_DEG:
-        raise choices("place for the sun", light, render.LIGHTS_DEG)
     if not 64 <= size <= 2048:
         raise InputError(f"size {size}: a picture has 64 to 2048 pixels")
     found = [surface_from(surface, values), *map(surface_from, others)]
     made = [each if isinstance(each, ColouredSurface) else exporters.coloured(each, each.model.name) for each in found]
-    seen = [render.render(each, size, light, progress(each.name) if progress else None) for each in made]
-    return Preview(tuple(made), np.stack(seen), light)
+    seen, about = looks(made, size, around, light, objects, progress)
+    return Preview(tuple(made), np.stack(seen), about)

@@ -92,13 +92,14 @@ def _along_surface(normal, direction):
 
 def frames(surface: ColouredSurface, normal, across) -> np.ndarray:
     """(pixels, 3, 3): x and y of the sample's frame and the normal; `axis` lies along `across`."""
-    axis = _axis(surface)
+    axis = grain_axis(surface)
     beside = np.cross(normal, across)
     x = np.cos(axis) * across - np.sin(axis) * beside
     return np.stack((x, np.cross(normal, x), normal), axis=1)
 
 
-def _axis(surface: ColouredSurface) -> float:
+def grain_axis(surface: ColouredSurface) -> float:
+    """Azimuth of the grain [rad] in the sample's frame."""
     values = [surface.values_of(term) for term in surface.model.terms if "axis" in term.model.defaults()]
     return float(np.ravel(values[0]["axis"])[0])
 
@@ -112,5 +113,5 @@ def place_in_turns(surface: ColouredSurface, normal, frame) -> np.ndarray:
     """(pixels,) the azimuth of the line of sight in the sample's frame, in steps of the table; on the right of the
     picture that of the mirror image, for which the table stands there."""
     azimuth = np.arctan2(frame[:, 1, 2], frame[:, 0, 2])  # the camera looks along -z
-    mirrored = 2 * _axis(surface) - azimuth
+    mirrored = 2 * grain_axis(surface) - azimuth
     return np.remainder(np.where(normal[:, 0] > 0, mirrored, azimuth), np.pi) / np.pi * TURNS

@@ -210,6 +210,7 @@ ACTS = {
         "--aperture-deg": Acts("--aperture-deg 3"),
         "--anyway": Acts("--anyway", "compare {turned} ggx"),
         "--plot": Acts("--plot {out}/it.svg"),
+        "--theme": Acts("--theme dark", "compare lambertian phong --plot {out}/it.svg"),
     },
     "examples": {"--force": Acts("--force", "examples {whole}")},
     "gloss": {
@@ -238,6 +239,7 @@ ACTS = {
         "--to-nm": Acts("--to-nm 10600"),
         "--beta": Acts("--beta 0.01:0.5", SCATTERING),
         "--plot": Acts("--plot {out}/it.svg", SCATTERING),
+        "--theme": Acts("--theme dark", SCATTERING + " --plot {out}/it.svg"),
     },
     "roughness": {
         "--angle": Acts("--angle 60"),
@@ -288,6 +290,7 @@ ACTS = {
         "--only": Acts("--only 1"),
         "--data": Acts("--data 5={dome}", "figures {out} --only 5"),
         "--format": Acts("--format svg"),
+        "--theme": Acts("--theme dark"),
     },
     "explore": {
         "--data": Acts("--data {dome}"),
@@ -295,7 +298,10 @@ ACTS = {
     },
     "preview": {
         "--compare": Acts("--compare lambertian"),
+        "--row": Acts("--row albedo=0.2..0.8/2"),
         "--output": Acts("-o {out}/other.png"),
+        "--env": Acts("--env sky"),
+        "--object": Acts("--object disc"),
         "--light": Acts("--light back"),
         "--size": Acts("--size 80"),
     },
@@ -325,5 +331,6 @@ ACTS = {
     "bench": {
         "--models": Acts("-m phong", shows="phong"),
         "--plot": Acts("--plot {out}/it.svg", "bench {dome} -m lambertian", shows="it.svg"),
+        "--theme": Acts("--theme dark", "bench {dome} -m lambertian --plot {out}/it.svg"),
     },
 }

@@ -138,7 +138,7 @@ def test_two_surfaces_stand_side_by_side_with_their_difference(tmp_path):
     [
         (("wrad",), "no model called 'wrad'"),
         (("ward ward.alhpa=1",), "no parameter of ward called 'ward.alhpa'"),
-        (("ward", "--light", "below"), "no place for the sun called 'below'"),
+        (("ward", "--light", "below"), "no place for the light called 'below'"),
         (("ward", "--size", "9"), "--size 9: a picture has 64 to 2048 pixels"),
         (("ward", "-o", "a.jpg"), "a.jpg: a preview is a .png or .exr"),
         (("nowhere.json",), "nowhere.json: there is no such file"),

@@ -5,7 +5,7 @@ import numpy as np
 from . import style
 
 
-def plot_scatter(document: dict, path) -> None:
+def plot_scatter(document: dict, path, theme: str = style.LIGHT) -> None:
     """Draw the curve of a scatter document, with its spectrum below, into `path`."""
     curve = document["curve"]
     beta, brdf = np.array(curve["beta"], float), np.array(curve["brdf_per_sr"], float)
@@ -22,4 +22,4 @@ def plot_scatter(document: dict, path) -> None:
         below.set_ylabel("spectrum of the surface [µm$^4$]")
         below.grid(True)
         style.origin(fig, f"from {document['from']}, {document['wavelength_nm']:g} nm, {document['theta_i_deg']:g}°")
-        style.save(fig, path)
+        style.save(fig, path, theme)

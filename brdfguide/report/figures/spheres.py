@@ -1,6 +1,7 @@
 """Previews side by side, with what differs between them amplified, as one picture of exact pixels."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from textwrap import wrap
 
 import numpy as np
@@ -10,50 +11,77 @@ from ...exporters import coloured
 from ...exporters.exporter import ColouredSurface
 from ...models.surface import Surface
 from ...physics.colour import luminance
+from ...physics.display import Display
 from ...physics.geometry import WAVELENGTH_UM
 from ...printable import label
 from .. import render
 from . import style
 
 SMALL = 256  # pixels of a preview on a page
-AMPLIFIED = 4.0
+FULL = 20.0  # just noticeable differences that have full colour, as in the explorer
 MARGIN = 12  # pixels
 LINE = 15  # height of a line [pixels]
 LETTER = 6.6  # mean width of a letter [pixels]
+MOST_COLUMNS = 6  # of a contact sheet
 LESS = np.array([0.0, 0.447, 0.698])  # the palette's blue
 MORE = np.array([0.835, 0.369, 0.0])  # the palette's vermilion
+DISPLAY = Display(exposure=render.EXPOSURE)
 
 
-def picture_sheet(captions: list[tuple[str, str]], radiances: list[np.ndarray], note: str = ""):
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """One picture of a sheet, where it stands, its name and what is said below it."""
+
+    column: int
+    row: int
+    name: str
+    small: str
+    picture: np.ndarray
+
+
+def picture_sheet(captions: list[tuple[str, str]], radiances: list[np.ndarray], note: str = "", compared: bool = True):
     """A figure with one preview per (name, parameters), and how each but the first differs from the first.
 
-    All are exposed alike. Differences are of display luminance, times `AMPLIFIED`: vermilion where brighter than the
-    first, blue where darker, white where the same; beside a pair, below three and more.
+    All are exposed alike. Differences are of luminance in just noticeable steps: vermilion where brighter than the
+    first, blue where darker, white where the same; beside a pair, below three and more. Where they are not `compared`,
+    pictures alone, in rows.
     """
     shown = [np.clip(render.tone(each), 0, 1) for each in radiances]
-    size, count = shown[0].shape[0], len(shown)
-    letters = int(size / LETTER)
-    below = count > 2
-    columns = 3 if count == 2 else count
+    count = len(shown)
+    columns = count if compared or count <= MOST_COLUMNS else min(MOST_COLUMNS, int(np.ceil(np.sqrt(1.5 * count))))
     cells = [
-        (place, 0, name, small, picture)
+        Cell(place % columns, place // columns, name, small, picture)
         for place, ((name, small), picture) in enumerate(zip(captions, shown, strict=True))
     ]
-    for place in range(1, count):
-        words = f"display luminance, ×{AMPLIFIED:g}: orange where {captions[place][0]} is brighter, blue where darker"
-        cells.append(
-            (
-                place if below else 2,
-                1 if below else 0,
-                f"minus {captions[0][0]}",
-                words,
-                difference_picture(shown[0], shown[place]),
-            )
+    if compared:
+        cells += _differences(captions, radiances)
+        columns = 3 if count == 2 else count
+    return _sheet(cells, columns, note)
+
+
+def _differences(captions, radiances) -> list[Cell]:
+    below, made = len(radiances) > 2, []
+    for place in range(1, len(radiances)):
+        steps = noticeable_steps(radiances[0], radiances[place])
+        more = 100 * np.mean(np.abs(steps) > 1)
+        words = (
+            f"just noticeable steps of luminance, full colour at {FULL:g}: orange where {captions[place][0]} is "
+            f"brighter, blue where darker; {more:.0f} % of the picture differs by more than one"
         )
-    head = MARGIN + LINE * (1 + max(len(wrap(small, letters)) for *_, small, _ in cells))
+        name = f"minus {captions[0][0]}"
+        made.append(Cell(place if below else 2, int(below), name, words, difference_picture(steps)))
+    return made
+
+
+def _sheet(cells: list[Cell], columns: int, note: str):
+    """A figure of exact pixels."""
+    size = cells[0].picture.shape[0]
+    letters = int(size / LETTER)
+    rows = 1 + max(each.row for each in cells)
+    head = MARGIN + LINE * (1 + max(len(wrap(each.small, letters)) for each in cells))
     foot = wrap(note, int(letters * columns)) if note else []
     width = columns * size + (columns + 1) * MARGIN
-    height = (2 if below else 1) * (size + head) + LINE * len(foot) + MARGIN
+    height = rows * (size + head) + LINE * len(foot) + MARGIN
     with style.look():
         fig = style.figure(width / style.DOTS_PER_INCH * 25.4, height / style.DOTS_PER_INCH * 25.4)
         fig.set_layout_engine(None)
@@ -62,26 +90,31 @@ def picture_sheet(captions: list[tuple[str, str]], radiances: list[np.ndarray], 
             shown = "\n".join(label(line, style.MOST_OF_A_LINE) for line in words.split("\n"))
             return fig.text(x / width, 1 - y / height, shown, fontsize=4, va="top", linespacing=1.3, **more)
 
-        for column, row, name, small, picture in cells:
-            x, y = MARGIN + column * (size + MARGIN), row * (size + head)
-            fig.figimage(picture, x, height - y - head - size, origin="upper")
-            text(x, y + MARGIN - 6, name, weight="bold")
-            text(x, y + MARGIN - 6 + LINE, "\n".join(wrap(small, letters)))
+        for each in cells:
+            x, y = MARGIN + each.column * (size + MARGIN), each.row * (size + head)
+            fig.figimage(each.picture, x, height - y - head - size, origin="upper")
+            text(x, y + MARGIN - 6, each.name, weight="bold")
+            text(x, y + MARGIN - 6 + LINE, "\n".join(wrap(each.small, letters)))
         text(MARGIN, height - MARGIN - LINE * len(foot) + 6, "\n".join(foot))
     return fig
 
 
-def difference_picture(first, other) -> np.ndarray:
-    """Amplified difference of display luminance as a colour, (height, width, 3)."""
-    grey = np.clip(AMPLIFIED * (luminance(other) - luminance(first)), -1, 1)[..., None]
+def noticeable_steps(first, other) -> np.ndarray:
+    """How much brighter the other picture is, in just noticeable differences of luminance, (height, width)."""
+    return DISPLAY.logarithm(luminance(np.maximum(other, 0))) - DISPLAY.logarithm(luminance(np.maximum(first, 0)))
+
+
+def difference_picture(steps) -> np.ndarray:
+    """Just noticeable differences (height, width) as a colour, (height, width, 3)."""
+    grey = np.clip(steps / FULL, -1, 1)[..., None]
     return 1 + np.maximum(grey, 0) * (MORE - 1) + np.maximum(-grey, 0) * (LESS - 1)
 
 
-def preview_sheet(surfaces: Sequence[ColouredSurface], radiances, light: str):
-    """The same with the name and the shape of each surface, and where the sun stands."""
-    elevation, azimuth = render.LIGHTS_DEG[light]
-    about = f"sun {elevation:g}° high, {azimuth:g}° to the right of the camera; same exposure; {surfaces[0].colour.how}"
-    return picture_sheet([_caption(each) for each in surfaces], list(radiances), about)
+def preview_sheet(surfaces: Sequence[ColouredSurface], radiances, about: str, compared: bool = True):
+    """The same with the name and the shape of each surface, what lights them, and the tone curve."""
+    curve = f"exposure {render.EXPOSURE:g}, linear up to half of white, above it 1 - 1/(4x), sRGB"
+    words = f"{about}; {curve}; {surfaces[0].colour.how}"
+    return picture_sheet([_caption(each) for each in surfaces], list(radiances), words, compared)
 
 
 def _caption(surface: ColouredSurface) -> tuple[str, str]:

@@ -1,0 +1,1 @@
+"""Objects on a floor among lights, ray-cast and lit by what stands around them: what `preview` shows."""
