@@ -58,7 +58,7 @@ def preview(
     from functools import partial
 
     from ..face import functions, surfaces
-    from ..face.looks import row_of
+    from ..face.staging import row_of
     from ..files import writable
 
     if size is not None and not 64 <= size <= 2048:

@@ -256,11 +256,11 @@ def preview(
     from .. import exporters
     from ..errors import InputError
     from ..exporters.exporter import ColouredSurface
-    from .looks import looks
+    from .staging import pictures_among
 
     if not 64 <= size <= 2048:
         raise InputError(f"size {size}: a picture has 64 to 2048 pixels")
     found = [surface_from(surface, values), *map(surface_from, others)]
     made = [each if isinstance(each, ColouredSurface) else exporters.coloured(each, each.model.name) for each in found]
-    seen, about = looks(made, size, around, light, objects, progress)
+    seen, about = pictures_among(made, size, around, light, objects, progress)
     return Preview(tuple(made), np.stack(seen), about)

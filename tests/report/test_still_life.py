@@ -9,7 +9,7 @@ import pytest
 
 from brdfguide.errors import InputError
 from brdfguide.face.functions import preview
-from brdfguide.face.looks import row_of
+from brdfguide.face.staging import row_of
 from brdfguide.face.surfaces import named_surface
 from brdfguide.physics.geometry import Geometry
 from brdfguide.report.figures import spheres

@@ -18,7 +18,7 @@ LEAST_SHARE = 3e-4  # of all light on level ground: a part of the sky that sends
 
 
 @dataclass(frozen=True, eq=False)
-class Floor:
+class Chequer:
     """Light (3,) that leaves a white floor in the open [radiance], and the share of it that objects leave."""
 
     white: np.ndarray
@@ -48,7 +48,7 @@ class Floor:
         return upper + s * (lower - upper)
 
 
-def floor_under(things: Sequence[Thing], around: Lighting) -> Floor:
+def floor_under(things: Sequence[Thing], around: Lighting) -> Chequer:
     """The floor in the light of what is above the horizon."""
     directions, sent = around.upper_cells()
     white = sent.sum(axis=0) / np.pi
@@ -65,7 +65,7 @@ def floor_under(things: Sequence[Thing], around: Lighting) -> Floor:
             hidden[near] = thing.blocks(points[near], ray[near])
         shade -= part * hidden
     fade = np.clip((EXTENT - np.maximum(np.abs(x), np.abs(z))) / 1.0, 0, 1)  # no edge where the map ends
-    return Floor(white, _softened(1 - fade * (1 - np.maximum(shade, 0).reshape(x.shape))))
+    return Chequer(white, _softened(1 - fade * (1 - np.maximum(shade, 0).reshape(x.shape))))
 
 
 def _may_be_hidden(points, toward, thing: Thing) -> np.ndarray:

@@ -13,7 +13,7 @@ from ...exporters.exporter import ColouredSurface
 from ...physics.geometry import Geometry
 from ..grained_view import grain_axis, has_grain
 from . import lobe_cells as lobes
-from .chequer import Floor, floor_under
+from .chequer import Chequer, floor_under
 from .light_map import Lighting, map_directions
 from .standing import Thing
 
@@ -50,7 +50,7 @@ class Stage:
     has_floor: bool = True  # an image of the surroundings holds its own ground
 
     @cached_property
-    def floor(self) -> Floor | None:
+    def floor(self) -> Chequer | None:
         return floor_under(self.things, self.around) if self.has_floor else None
 
     @cached_property
@@ -98,7 +98,7 @@ class Stage:
         """Radiance in linear sRGB, (size, size, 3)."""
         image = np.array(self.behind, float)
         grained = has_grain(surface)
-        parts = lobes.parts(surface, grained)
+        parts = lobes.lobe_parts(surface, grained)
         for place, layer in enumerate(self.layers):
             lit = np.zeros((len(layer.rows), 3))
             for part in parts:
@@ -121,7 +121,7 @@ class Stage:
         pixel = 2 * 2 * HALF_WIDTH / self.size / layer.thing.size
         return share * self.toward(layer.points, to, pixel)
 
-    def _stepwise(self, surface, layer: Layer, cells: lobes.Cells) -> np.ndarray:
+    def _stepwise(self, surface, layer: Layer, cells: lobes.LobeCells) -> np.ndarray:
         """A part of a lobe at every so many pixels, and between them by nearness of the normals."""
         step = int(cells.step / (2 * HALF_WIDTH / self.size / layer.thing.size))
         if step <= 1:
@@ -149,7 +149,7 @@ class Stage:
         total[alone] = self._summed(surface, _taken(layer, np.flatnonzero(alone)), cells)
         return total
 
-    def _summed(self, surface, layer: Layer, cells: lobes.Cells) -> np.ndarray:
+    def _summed(self, surface, layer: Layer, cells: lobes.LobeCells) -> np.ndarray:
         """Light (pixels, 3) of cells of the lobe."""
         out = np.zeros((len(layer.rows), 3))
         axis = grain_axis(surface) if cells.turns > 1 else 0.0
@@ -159,7 +159,7 @@ class Stage:
             out[start : start + step] = self._block(block, cells, axis)
         return out
 
-    def _block(self, layer: Layer, cells: lobes.Cells, axis: float) -> np.ndarray:
+    def _block(self, layer: Layer, cells: lobes.LobeCells, axis: float) -> np.ndarray:
         normal, view = layer.normal.astype(np.float32), -layer.ray.astype(np.float32)
         cos = np.clip(np.sum(normal * view, axis=1), 1e-4, 1)
         sin = np.sqrt(np.maximum(1 - cos**2, 1e-9))
@@ -186,7 +186,7 @@ class Stage:
         return np.where(to[..., 1:2] < -1e-3, seen, to)
 
 
-def _weights(cells: lobes.Cells, theta, layer: Layer, x, axis: float) -> np.ndarray:
+def _weights(cells: lobes.LobeCells, theta, layer: Layer, x, axis: float) -> np.ndarray:
     """Weights (pixels, cells, 3) at angles of view, between those of the table."""
     row = np.interp(theta, cells.theta, np.arange(len(cells.theta)))
     low = np.minimum(row.astype(int), len(cells.theta) - 2)

@@ -31,7 +31,7 @@ WIDE_STEP, MIDDLE_STEP = 0.022, 0.015  # turn of the normal [rad] from one place
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class LobeCells:
     """Unit vectors (cells, 3) in the frame x in the plane of view, z the normal; their solid angles, and their weights
     over turn and angle; `step` [rad of the normal] may lie between those places where they are summed.
     """
@@ -47,13 +47,13 @@ class Cells:
     def turns(self) -> int:
         return self.weights.shape[0]
 
-    def part(self, kept, step: float) -> "Cells":
-        return Cells(self.vectors[kept], self.halved, self.solid[kept], self.theta, self.weights[:, :, kept], step)
+    def part(self, kept, step: float) -> "LobeCells":
+        return LobeCells(self.vectors[kept], self.halved, self.solid[kept], self.theta, self.weights[:, :, kept], step)
 
 
-def parts(surface: ColouredSurface, grained: bool) -> list[Cells]:
+def lobe_parts(surface: ColouredSurface, grained: bool) -> list[LobeCells]:
     """A lobe's core, its flanks, and what is far from the mirror direction; the smoother a part, the fewer places it
-    needs. Cells that send nothing are left out.
+    needs. LobeCells that send nothing are left out.
     """
     half, far = _cells(surface, grained)
     size = np.abs(half.weights)
@@ -73,13 +73,13 @@ def parts(surface: ColouredSurface, grained: bool) -> list[Cells]:
     return [each for each in found if each.solid.size]
 
 
-def _cells(surface: ColouredSurface, grained: bool) -> tuple[Cells, Cells]:
+def _cells(surface: ColouredSurface, grained: bool) -> tuple[LobeCells, LobeCells]:
     theta = 0.5 * np.pi * (1 - (1 - np.linspace(0, 1, GRAINED_THETAS if grained else THETAS)) ** 1.5)
     theta[-1] = GRAZING
     return _of_half_vectors(surface, theta, grained), _of_directions(surface, theta, grained)
 
 
-def _of_half_vectors(surface: ColouredSurface, theta, grained: bool) -> Cells:
+def _of_half_vectors(surface: ColouredSurface, theta, grained: bool) -> LobeCells:
     core = np.geomspace(LEAST, INNER, CORE_FINE + 1)
     near = np.geomspace(INNER, NARROW, NARROW_RINGS * FINE + 1)[1:]
     wide = np.geomspace(NARROW, FAR, WIDE_RINGS * FINE + 1)[1:]
@@ -105,10 +105,10 @@ def _of_half_vectors(surface: ColouredSurface, theta, grained: bool) -> Cells:
     tilt[0] = 0.0  # the first cell lies about the normal
     place = np.arange(count) - np.repeat(first[:-1], spokes)
     vectors = _polar(np.arctan(tilt), 2 * np.pi * (place + 0.5) / np.repeat(spokes, spokes))
-    return Cells(vectors, True, every, theta, weights)
+    return LobeCells(vectors, True, every, theta, weights)
 
 
-def _of_directions(surface: ColouredSurface, theta, grained: bool) -> Cells:
+def _of_directions(surface: ColouredSurface, theta, grained: bool) -> LobeCells:
     def grid(bands, sectors):
         at = 0.5 * np.pi * (np.arange(bands) + 0.5) / bands
         vectors = _polar(at[:, None], 2 * np.pi * (np.arange(sectors) + 0.5) / sectors)
@@ -126,7 +126,7 @@ def _of_directions(surface: ColouredSurface, theta, grained: bool) -> Cells:
 
     vectors, large = grid(BANDS, SECTORS)
     weights = _weights(surface, theta, grained, directions, cell, BANDS * SECTORS)
-    return Cells(vectors.reshape(-1, 3), False, large.ravel(), theta, weights)
+    return LobeCells(vectors.reshape(-1, 3), False, large.ravel(), theta, weights)
 
 
 def _belt(tilt):

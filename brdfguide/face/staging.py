@@ -15,7 +15,7 @@ STEPS = 5  # of a row
 MOST_STEPS = 12
 
 
-def looks(
+def pictures_among(
     surfaces: "Sequence[ColouredSurface]", size: int, around: str, light: str | None, objects: str | None, progress
 ) -> tuple[list[np.ndarray], str]:
     """Radiance (size, size, 3) of each surface, and in words what lights them.
