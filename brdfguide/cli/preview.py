@@ -57,30 +57,37 @@ def preview(
     from dataclasses import replace
     from functools import partial
 
-    from ..face import functions, surfaces
-    from ..face.staging import row_of
+    from ..face import functions
     from ..files import writable
 
     if size is not None and not 64 <= size <= 2048:
         raise InputError(f"--size {size}: a picture has 64 to 2048 pixels")
     if writable(output).suffix.lower() not in (".png", ".exr"):
         raise InputError(f"{output}: a preview is a .png or .exr")
-    if len(surface) > 1 and (compare or row):
-        option = "--compare" if compare else "--row"
-        raise InputError(f"{option}: wanted one surface before it, found {len(surface)}")
-    if compare and row:
-        raise InputError("--row: stands alone; without --compare")
-    shown: list = [*surface, *(compare or ())]
-    if row:
-        shown = row_of(surfaces.named_surface(surface[0]), row)
-    if len(shown) > MOST:
-        raise InputError(f"{len(shown)} surfaces; a sheet holds at most {MOST}")
+    shown = _shown(surface, compare or [], row)
     side = size or (LARGE if len(shown) <= FEW else SMALL)
     shows = partial(_progress, quiet=quiet)
     made = functions.preview(*shown, size=side, light=light, around=env, objects=objects, progress=shows)
     made = replace(made, compared=bool(compare))
     made.save(output)
     remark(f"{output}: {' | '.join(each.name for each in made.surfaces)}", quiet)
+
+
+def _shown(surfaces: list[str], compared: list[str], row: str | None) -> list:
+    """Words for surfaces, or the surfaces of a row. Raises InputError for options that do not go together."""
+    if len(surfaces) > 1 and (compared or row):
+        option = "--compare" if compared else "--row"
+        raise InputError(f"{option}: wanted one surface before it, found {len(surfaces)}")
+    if compared and row:
+        raise InputError("--row: stands alone; without --compare")
+    if len(surfaces) + len(compared) > MOST:
+        raise InputError(f"{len(surfaces) + len(compared)} surfaces; a sheet holds at most {MOST}")
+    if not row:
+        return [*surfaces, *compared]
+    from ..face.staging import row_of
+    from ..face.surfaces import named_surface
+
+    return row_of(named_surface(surfaces[0]), row)
 
 
 def _progress(name: str, quiet: bool):
