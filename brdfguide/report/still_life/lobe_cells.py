@@ -66,7 +66,9 @@ def lobe_parts(surface: ColouredSurface, grained: bool) -> list[LobeCells]:
     def within(most):
         return facing[tilt < most].sum() / max(facing.sum(), 1e-300)
 
-    core = WIDE_STEP if within(PEAK) < PEAK_SHARE else 0.0 if within(INNER) > FINEST_SHARE else MIDDLE_STEP
+    core = WIDE_STEP if within(PEAK) < PEAK_SHARE else MIDDLE_STEP
+    if within(INNER) > FINEST_SHARE:
+        core = 0.0
     seen, narrow = size.max(axis=(0, 1, 3)) > 1e-4 * total, tilt < NARROW
     kept = np.abs(far.weights).max(axis=(0, 1, 3)) > 1e-4 * total
     found = [half.part(narrow & seen, core), half.part(~narrow & seen, WIDE_STEP), far.part(kept, WIDE_STEP)]
