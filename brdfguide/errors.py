@@ -1,6 +1,4 @@
-"""What can go wrong, and the exit status that says so."""
-
-from . import printable
+"""What can go wrong, and the exit status that says so. `printable` is imported where something has gone wrong."""
 
 MOST_CHOICES = 60  # that are all told where one of them is spelt alike
 MOST_NAMES = 2000  # of a folder, among which one spelt alike is looked for
@@ -16,6 +14,8 @@ class BrdfguideError(Exception):
     exit_status = 1
 
     def __str__(self) -> str:
+        from . import printable
+
         return printable.sentences(self.args)
 
 
@@ -56,6 +56,8 @@ def mistake(error: Exception) -> str:
         frame = frame.tb_next
     file = frame.tb_frame.f_code.co_filename.replace("\\", "/").rpartition("/")[2] if frame else ""
     where = f" in {file} line {frame.tb_lineno}" if frame else ""
+    from . import printable
+
     what = printable.sentence(f"{type(error).__name__}{where}: {error}")
     return f"this is a mistake of brdfguide and not yours, please report it: {what}; --debug shows all of it"
 
@@ -64,17 +66,21 @@ def nearest_words(word: str, known, most: int, cutoff: float) -> list[str]:
     """Up to `most` of `known` that are spelt much like `word`."""
     from difflib import get_close_matches  # only ever needed on the way out
 
-    return get_close_matches(word[: printable.MOST_OF_A_WORD], known, n=most, cutoff=cutoff)
+    from .printable import MOST_OF_A_WORD
+
+    return get_close_matches(word[:MOST_OF_A_WORD], known, n=most, cutoff=cutoff)
 
 
 def choices(kind: str, found: str, known) -> InputError:
     """The error for a word that is not one of `known`, with the nearest ones first."""
+    from .printable import short
+
     known = list(known)
     near = nearest_words(found.lower(), known, 3, 0.6)
     if near and len(known) > MOST_CHOICES:
-        return InputError(f"no {kind} called '{printable.short(found)}'; did you mean {' or '.join(near)}?")
+        return InputError(f"no {kind} called '{short(found)}'; did you mean {' or '.join(near)}?")
     hint = f"did you mean {' or '.join(near)}? " if near else ""
-    return InputError(f"no {kind} called '{printable.short(found)}'; {hint}there are: {', '.join(known)}")
+    return InputError(f"no {kind} called '{short(found)}'; {hint}there are: {', '.join(known)}")
 
 
 def no_such_file(path, name: str) -> InputError:

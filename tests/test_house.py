@@ -43,8 +43,8 @@ LATE = {
     "data.formats.spreadsheet": {"zipfile"},  # every command that reads would load it for workbooks alone
     "data.formats.klems": {"xml.etree"},  # the same for XML
     "data.formats._open": {"zlib", "lzma", "bz2"},  # Python may be built without them
-    "errors": {"difflib", "pathlib"},  # only to word an error, and `roughness` starts without them
-    "report.text.emergence": {"json"},  # the same command answers in words without it
+    "errors": {"difflib", "pathlib", ".", ".printable"},  # only to word an error, and `roughness` starts without them
+    "report.text.emergence": {"json", ".folding"},  # the same command answers in words, and in a pipe, without them
     "batch.flat_files": {"pyarrow"},  # an optional dependency
     "batch.scheduler": {"distributed"},  # an optional dependency
     "printable": {"unicodedata"},  # only for letters beyond ASCII

@@ -4,14 +4,11 @@ import codecs
 import os
 import sys
 
-from .. import printable
-from ..errors import InputError
-
 
 def prepare_streams() -> None:
     """Signs that an encoding lacks are shown in those that it has; a stream that is closed is told from one that is not
     there."""
-    codecs.register_error("shown", printable.shown)
+    codecs.register_error("shown", _shown)
     if sys.stdin is None:
         sys.stdin = open(os.open(os.devnull, os.O_RDONLY), closefd=False)  # noqa: SIM115
     if sys.stdout is None:
@@ -24,12 +21,21 @@ def prepare_streams() -> None:
             stream.reconfigure(errors="shown")
 
 
+def _shown(error: UnicodeError):
+    """What an encoding lacks, which few answers of `roughness` in a shell loop come to."""
+    from ..printable import shown
+
+    return shown(error)
+
+
 def say(text: str, end: str = "\n", *, shown: bool = False) -> bool:
     """An answer on standard output, all of it at once; whether anybody reads on: one who has enough, such as `head`, is
     no error. `shown`: colours of ours stand in it, and `printable` has shown the rest. Raises InputError where it
     cannot be written."""
+    from ..printable import lines
+
     try:
-        sys.stdout.write((text if shown else printable.lines(text)) + end)
+        sys.stdout.write((text if shown else lines(text)) + end)
         sys.stdout.flush()
     except OSError as error:
         return _gone(error)
@@ -52,14 +58,18 @@ def _gone(error: OSError) -> bool:
     """False where the reader has enough; InputError for anything else."""
     _nowhere(sys.stdout)
     if not isinstance(error, BrokenPipeError):
+        from ..errors import InputError
+
         raise InputError(f"cannot write standard output: {error.strerror}") from None
     return False
 
 
 def whisper(text: str, end: str = "\n") -> None:
     """Something for the person, on standard error; where that cannot be written there is nobody to tell."""
+    from ..printable import lines
+
     try:
-        sys.stderr.write(printable.lines(text) + end)
+        sys.stderr.write(lines(text) + end)
         sys.stderr.flush()
     except OSError:
         _nowhere(sys.stderr)

@@ -17,7 +17,7 @@ SAMPLE = "examples/rough_plastic.csv"
 MAY_NOT_LOAD = {
     "--help": HEAVY,
     "--version": LIGHT,
-    "roughness --angle 80": LIGHT,
+    "roughness --angle 80": (*LIGHT, "brdfguide.printable", "brdfguide.report.text.folding"),
     "roughness --angle 80 --json": LIGHT,
     "roughness --help": HEAVY,
     "roughness --batch -": HEAVY,

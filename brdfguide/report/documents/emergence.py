@@ -33,19 +33,20 @@ def document(
     contour=False,
     never=False,
     angle_error=None,
+    brief=False,
 ) -> dict:
-    """What Eq. 3 and the criterion say. Raises InputError for a wrong question, NoAnswer where neither answers."""
+    """What Eq. 3 and the criterion say. Raises InputError for a wrong question, NoAnswer where neither answers.
+
+    `brief` leaves out the angles in other light, which cost a third of the rest and which only --full and --json show.
+    """
     if never and angle is None:
         angle = 85.0  # as far as people usually look
     _check(angle, slope, sigma_um, tau_um, wavelength_nm)
     _check_error(angle_error, angle, never)
     omega = emergence.pupil_solid_angle(pupil_mm, distance_mm)
     um = wavelength_nm / 1000
-    question = {
-        "slope": SLOPE if slope is None and sigma_um is None and tau_um is None else slope,
-        "sigma": sigma_um,
-        "tau": tau_um,
-    }
+    unknown = slope is None and sigma_um is None and tau_um is None
+    question = {"slope": SLOPE if unknown else slope, "sigma": sigma_um, "tau": tau_um}
     standard = (pupil_mm, distance_mm) == (emergence.PUPIL_MM, emergence.DISTANCE_MM)
     eq3 = _answer(lambda: _by_formula(angle, **question, um=um, standard=standard), "eq3_refused", angle, c=None)
     criterion = _answer(lambda: _by_criterion(angle, **question, um=um, omega=omega), "criterion_refused", angle)
@@ -72,11 +73,9 @@ def document(
     if criterion["sigma_um"] and angle is not None and not never:
         result["doubt"] = _doubt(angle, angle_error, question, um, omega, criterion["tau_um"])
     if criterion["sigma_um"]:
-        point = criterion["sigma_um"], criterion["tau_um"]
         result["slopes"] = _slopes(criterion["slope"])
-        result["other_wavelengths"] = [
-            {"wavelength_nm": nm, "angle_deg": emergence.emergence_angle(*point, nm / 1000, omega)} for nm in OTHER_NM
-        ]
+    if criterion["sigma_um"] and not brief:
+        result["other_wavelengths"] = _in_other_light(criterion, omega)
     if contour:
         if angle is None:
             raise InputError("--contour needs --angle")
@@ -228,6 +227,14 @@ def _slopes(slope):
         "beckmann_alpha": 2 * slope,
         "shows_from": SHOWS_FROM,
     }
+
+
+def _in_other_light(point, omega):
+    """From where on the mirror image of the criterion's surface stands out at other wavelengths."""
+    surface = point["sigma_um"], point["tau_um"]
+    return [
+        {"wavelength_nm": nm, "angle_deg": emergence.emergence_angle(*surface, nm / 1000, omega)} for nm in OTHER_NM
+    ]
 
 
 def _flag(code, text):

@@ -1,8 +1,9 @@
 """The answer of `roughness` in words, for one question or for many. Loads nothing but `math`: shell loops call it."""
 
+import sys
+
 from ...errors import BrdfguideError, InputError
 from ..documents.emergence import SCHEMA, document
-from .folding import page
 
 
 def text(result: dict, full: bool = False) -> str:
@@ -20,7 +21,7 @@ def text(result: dict, full: bool = False) -> str:
         if (tau, sigma) == tuple(result["contour"][0]):
             lines += ["", f"{'tau [um]':>10}  {'sigma [um]':>10}"]
         lines.append(f"{tau:10.4g}  {sigma:10.4g}")
-    return page("\n".join(lines)).rstrip("\n") + "\n"
+    return "\n".join(lines).rstrip("\n") + "\n"
 
 
 def _answer(result) -> list[str]:
@@ -110,8 +111,17 @@ def notes(result: dict) -> list[str]:
 
 def answer_text(json: bool = False, full: bool = False, **question) -> tuple[str, list[str]]:
     """stdout and the notes for stderr. Both ways to run the command end here."""
-    result = document(**question)
-    return (_json(result) + "\n", []) if json else (text(result, full), notes(result))
+    result = document(**question, brief=not (json or full))
+    return (_json(result) + "\n", []) if json else (_on_screen(text(result, full)), notes(result))
+
+
+def _on_screen(words: str) -> str:
+    """Folded where a screen is narrower; in a pipe nothing is."""
+    if not sys.stdout.isatty():
+        return words
+    from .folding import page
+
+    return page(words)
 
 
 def _json(value, margin="\n") -> str:
