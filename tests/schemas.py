@@ -106,7 +106,7 @@ NULLABLE = {  # null where the data do not say it, which the commands above all 
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
     *("r_mirror_data", "r_max_data", "gloss_gu", "held_out_rms_ln", "seen", "stderr", "known_to", "shows_from"),
     *("measured_rms_ln", "measured_off_percent", "key", "energy", "reciprocity", "off_plane", "missing"),
-    "noise_relative",
+    *("noise_relative", "with_it"),
 }
 OPTIONAL = {  # there or not, as was asked
     *("time_per_sample_ns", "ns_per_sample", "fit_time_s", "on_front", "standard_error_left", "differ_by_noise"),

@@ -14,6 +14,7 @@ class PrintedValue:
     fitted: bool = False
     derived: bool = False
     known_to: Number = None
+    in_place_of: str | None = None
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,17 @@ class PrintedFlag:
 
     code: str
     numbers: dict[str, Number] | None = None
+
+
+@dataclass(frozen=True)
+class PrintedGrowth:
+    """R-mirror and R-max between two incidences."""
+
+    theta_i_deg: tuple[float, ...]
+    r_mirror: Number
+    r_max: Number
+    r_mirror_data: Number
+    r_max_data: Number
 
 
 @dataclass(frozen=True)
@@ -42,6 +54,8 @@ class PrintedRow:
     free_parameters: int
     parameters: dict[str, PrintedValue]
     flags: tuple[PrintedFlag, ...]
+    growth: PrintedGrowth | None = None
+    typed: dict[str, float | tuple[Number, ...] | None] | None = None
 
 
 @dataclass(frozen=True)
@@ -92,6 +106,49 @@ class PrintedFloor:
 
 
 @dataclass(frozen=True)
+class PrintedPlace:
+    """A direction where a rival parts from the recommended law."""
+
+    theta_i_deg: float
+    theta_r_deg: float
+    phi_deg: float
+    ln_ratio: Number
+
+
+@dataclass(frozen=True)
+class PrintedRival:
+    """A law that ties in the plane of incidence and parts outside it."""
+
+    candidate: str
+    rms_ln: float
+    then_percent: Number
+    at: tuple[PrintedPlace, ...]
+
+
+@dataclass(frozen=True)
+class PrintedPrice:
+    """The error that is expected out of the plane of incidence."""
+
+    rms_ln: Number
+    in_plane_rms_ln: Number
+    parameters_rms_ln: float
+    expected_percent: Number
+    apart: tuple[PrintedRival, ...]
+
+
+@dataclass(frozen=True)
+class PrintedCard:
+    """What to type into one program."""
+
+    numbers: dict[str, float | tuple[float, ...]]
+    hex: dict[str, str]
+    rms_ln: Number = None
+    off_percent: Number = None
+    measured_rms_ln: Number = None
+    measured_off_percent: Number = None
+
+
+@dataclass(frozen=True)
 class PrintedFit:
     """`fit --json`."""
 
@@ -103,3 +160,5 @@ class PrintedFit:
     seen_order: tuple[PrintedEntry, ...]
     seen_weights: str
     floor: PrintedFloor | None = None
+    off_plane: PrintedPrice | None = None
+    numbers: tuple[PrintedCard, ...] | None = None

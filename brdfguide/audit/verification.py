@@ -1,41 +1,24 @@
 """An answer of `fit` derived again from the numbers it prints and the data: which of them agree, and which do not.
 
 Parameters are taken as printed; from them, with mpmath and the laws of `textbook`, follow residuals, errors,
-differences and what stands beside them. What a fit found on its way (held-out errors, standard errors, floors) cannot
-follow from its answer: that is said, and only the answer's digest holds it.
+differences and what stands beside them: growth, the price out of the plane, what is told twice. What a fit found on
+its way (held-out errors, standard errors, floors) cannot follow from its answer: that is said, and only the answer's
+digest holds it.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from mpmath import cos, erfc, expm1, mpf, radians, sin, sqrt, tan, workdps
 
 from ..data.measurement import Measurement
 from ..errors import InputError
-from . import exact_errors
+from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
 from .exact_surface import NoLaw, surface_of
+from .rederived import Comparisons, Rederived
 
 DIGITS = 30  # of the arithmetic
-CLOSE = 1e-10  # relative: sixteen digits, less what sums over a thousand values and a steep lobe lose
-EXACT = 1e-13  # relative: a double printed and read again
-TOLD = 4  # digits of a percentage
-
-
-@dataclass(frozen=True)
-class Rederived:
-    """One number of the answer, and what it should be."""
-
-    place: str  # such as ranking[0].rms_ln
-    found: float | None
-    right: float
-    allowed: float  # between the two
-
-    @property
-    def agrees(self) -> bool:
-        if self.found is None:
-            return False
-        return abs(self.found - self.right) <= self.allowed
 
 
 @dataclass(frozen=True)
@@ -52,24 +35,6 @@ class Verification:
         return tuple(each for each in self.derived if not each.agrees)
 
 
-@dataclass(eq=False)
-class _Found:
-    """Comparisons as they are made."""
-
-    derived: list[Rederived] = field(default_factory=list)
-
-    def check(self, place: str, found, right, relative: float = CLOSE, absolute: float = 1e-15) -> None:
-        """One number; nothing where the answer has none."""
-        if found is not None:
-            allowed = relative * abs(float(right)) + absolute
-            self.derived.append(Rederived(place, float(found), float(right), allowed))
-
-    def rounded(self, place: str, found, right, digits: int = TOLD) -> None:
-        """One that was printed with so many digits; either neighbour where it lies between two."""
-        ends = [float(f"{float(right) * (1 + step):.{digits}g}") for step in (-CLOSE, CLOSE)]
-        self.check(place, found, ends[0] if found == ends[0] else ends[1], EXACT)
-
-
 def verify(
     answer: dict, data: Readings, only: str | None = None, progress: Callable[[str], None] = lambda name: None
 ) -> Verification:
@@ -78,9 +43,10 @@ def verify(
     Takes  a document of `fit --json`; `only` the row of one model. The answer's own counts and ranges are compared with
     the data first.    Gives  every comparison; nothing is raised for a number that is wrong.
     """
-    found, left = _Found(), dict[str, str]()
+    found, left = Comparisons(), dict[str, str]()
     with workdps(DIGITS):
         _data_block(answer["data"], data, found)
+        found.check("noise.values_told", answer["noise"].get("values_told"), sum(map(sum, data.told)))
         grey = _grey_ring(answer, data)
         rows = {}
         for place, row in enumerate(answer["ranking"]):
@@ -99,9 +65,12 @@ def verify(
                 del rows[place]
         for each in rows.values():
             each.errors(found)
-        _differences(rows, found)
+        _differences(rows, len(rows) == len(answer["ranking"]), found)
+        exact_followers.price(answer, {each.row["candidate"]: each for each in rows.values()}, data, found)
         if only is None:
             _orders(answer, found)
+            exact_followers.copies(answer, found)
+            exact_followers.programs(answer, found)
     used = sum(_size(entry["value"]) for row in answer["ranking"] for entry in row["parameters"].values())
     return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
 
@@ -143,7 +112,7 @@ def _numbers(document) -> int:
     return int(isinstance(document, (int, float)) and not isinstance(document, bool))
 
 
-def _data_block(block: dict, data: Readings, found: _Found) -> None:
+def _data_block(block: dict, data: Readings, found: Comparisons) -> None:
     """What the answer says of the data themselves."""
     found.check("data.samples", block["samples"], len(data.angles))
     found.check("data.values", block["values"], len(data.angles) * len(data.wavelengths))
@@ -173,7 +142,7 @@ class _Row:
         self.rms = exact_errors.exact_rms(self.residuals, data.share)
         self.lightness = grey[0].lightness(self.residuals, self.surface) if grey else None
 
-    def errors(self, found: _Found) -> None:
+    def errors(self, found: Comparisons) -> None:
         """Its own errors, and the numbers that follow from its parameters."""
         row, place = self.row, self.place
         found.check(f"{place}.rms_ln", row["rms_ln"], self.rms)
@@ -192,11 +161,13 @@ class _Row:
         fitted = (_size(each["value"]) for each in row["parameters"].values() if each.get("fitted"))
         found.check(f"{place}.free_parameters", row["free_parameters"], sum(fitted))
         self._parameters(found)
+        exact_followers.reflectance_errors(row, place, found)
+        exact_followers.exact_growth(self, self.data, found)
         for flag in row["flags"]:
             if flag["code"] == "discrepancy":
                 self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)
 
-    def _discrepancy(self, told: dict, place: str, found: _Found) -> None:
+    def _discrepancy(self, told: dict, place: str, found: Comparisons) -> None:
         """Where each number follows from the others: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""
         plain = exact_errors.exact_rms(self.residuals, [mpf(1)] * len(self.residuals))
         part = plain * sqrt(mpf(told["correlation"]))
@@ -204,7 +175,7 @@ class _Row:
         found.check(f"{place}.percent", told["percent"], 100 * expm1(part))
         found.check(f"{place}.chance", told["chance"], erfc(mpf(told["z"]) / sqrt(2)) / 2, 1e-7, absolute=0.0)
 
-    def _parameters(self, found: _Found) -> None:
+    def _parameters(self, found: Comparisons) -> None:
         """What follows from its parameters, and how well those are known."""
         for key, entry in self.row["parameters"].items():
             place = f"{self.place}.parameters.{key}"
@@ -247,10 +218,12 @@ FOLLOWS: dict[str, Callable] = {  # numbers beside the parameters -> how they fo
 }
 
 
-def _differences(rows: dict[int, _Row], found: _Found) -> None:
-    """How far each row lies behind the best, with its standard error, and how different the two look."""
-    best = next((each for each in rows.values() if each.row["behind"] == 0 and each.row["tied"]), None)
-    if best is None:
+def _differences(rows: dict[int, _Row], complete: bool, found: Comparisons) -> None:
+    """How far each row lies behind the best, with its standard error, and how different the two look. Of all rows the
+    best is the one that says that it is least behind."""
+    tied = [each for each in rows.values() if each.row["tied"]]
+    best = min(tied, key=lambda each: abs(each.row["behind"]), default=None)
+    if best is None or not (complete or best.row["behind"] == 0):
         return
     for each in rows.values():
         right, error = exact_errors.exact_behind(each.residuals, best.residuals, each.data)
@@ -261,7 +234,7 @@ def _differences(rows: dict[int, _Row], found: _Found) -> None:
             found.check(f"{each.place}.seen_from_best", each.row["seen_from_best"], apart, absolute=1e-11)
 
 
-def _orders(answer: dict, found: _Found) -> None:
+def _orders(answer: dict, found: Comparisons) -> None:
     """The same errors where candidates are put in order."""
     rows = {row["candidate"]: row for row in answer["ranking"]}
     for place, entry in _entries(answer):

@@ -11,12 +11,13 @@ Source: the score test, Rao 1948, "Large sample tests of statistical hypotheses"
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import models
 from ..data.measurement import LARGEST, Measurement
+from ..models.extensions import extensions
 from ..models.model import Composite
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
@@ -52,6 +53,7 @@ class MissingTerm:
     share: float  # of the residuals' variance
     confidence: float  # 0 to 1, among the kinds and none
     beside: tuple[tuple[str, float], ...] = ()  # the others that come near, and their shares
+    candidate: str | None = None  # the law with that term, as candidates grow; None: there is none
 
     @property
     def words(self) -> str:
@@ -86,7 +88,41 @@ def missing_term(fit: Fit, measurement: Measurement) -> MissingTerm | None:
             along = float(bare @ rest)
             share = along**2 / (size * float(rest @ rest)) if along > 0 or kind == "second axis" else 0.0
             shares[kind] = max(shares.get(kind, 0.0), share)
-    return _named(shares, count)
+    found = _named(shares, count)
+    return None if found is None else replace(found, candidate=_grown_by(found.kind, fit))
+
+
+def _grown_by(kind: str, fit: Fit) -> str | None:
+    """The law that has such a term more, of those that candidates grow to where one does."""
+    longer = (each.model for each in extensions(fit.model, fit.values))
+    grows = next((each.name for each in longer if _has_more(kind, each, fit.model)), None)
+    return grows if grows is not None else _typed(kind, fit.model)
+
+
+def _typed(kind: str, model: Composite) -> str | None:
+    """The law with a term that candidates do not grow by themselves: a cloth's sheen, a grain."""
+    if kind == "sheen":
+        return f"{model.name}+sheen"
+    known = {each.name for each in models.every()}
+    grained = "+".join(f"{word}-aniso" if f"{word}-aniso" in known else word for word in model.name.split("+"))
+    return grained if kind == "second axis" and grained != model.name else None
+
+
+def _has_more(kind: str, longer: Composite, model: Composite) -> bool:
+    """Whether a sum has a term of this kind that another lacks."""
+    has, had = ([(term.model.base or term.model).name for term in each.terms] for each in (longer, model))
+    new = set(has) - set(had)
+    if kind == "flakes":
+        return any(name.startswith("flakes") for name in new)
+    if kind == "coat":
+        coated, before = (any(term.model.is_coat for term in each.terms) for each in (longer, model))
+        return coated and not before and not any(name.startswith("flakes") for name in new)
+    if kind == "second axis":
+        turns, before = (any(term.model.turns for term in each.terms) for each in (longer, model))
+        return turns and not before
+    if kind in ("second lobe", "haze"):
+        return not new and len(has) > len(had)
+    return kind in new
 
 
 def _place(fit: Fit, measurement: Measurement, channel: int) -> int:

@@ -14,18 +14,25 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 from mpmath import mp, mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_surface, textbook_more, verification
+from brdfguide.audit import exact_followers, exact_surface, textbook_more, verification
+from brdfguide.audit.rederived import Comparisons
 from brdfguide.data.formats.format import InputError
 from brdfguide.face.functions import fit
+from brdfguide.fitting.off_plane_price import DOUBT, IN_PLANE
 from brdfguide.models.surface import Surface
-from brdfguide.physics.geometry import rows
+from brdfguide.physics.geometry import Geometry, rows
 from brdfguide.report.documents.digest import digest_holds
 
 from .. import synthetic
 from ..conftest import ROOT
 
+APART = ("parameters", "flags", "typed")  # where a key has dots of its own
 MODELS = ("lambertian+ggx", "lambertian+he-torrance", "lambertian+lafortune:2", "lambertian+ward")
-CODE = ("textbook", "textbook_more", "textbook_grain", "exact_surface", "exact_errors", "verification", "answer_shape")
+CODE = (
+    *("textbook", "textbook_more", "textbook_grain", "exact_surface", "exact_errors", "exact_followers", "rederived"),
+    *("verification", "answer_shape"),
+)
+SHARED = {".", ".textbook", ".exact_surface", ".exact_errors", ".rederived", "..errors", "..data.measurement"}
 
 
 def made(seed: int = 3, **options):
@@ -54,7 +61,7 @@ def test_it_shares_no_code_with_models_fits_and_physics():
         for node in ast.walk(ast.parse((ROOT / "brdfguide" / "audit" / f"{name}.py").read_text())):
             if isinstance(node, ast.ImportFrom) and node.level:
                 target = "." * node.level + (node.module or "")
-                assert target in (".", ".textbook", ".exact_surface", ".exact_errors", "..errors", "..data.measurement")
+                assert target in SHARED
 
 
 def test_an_honest_answer_holds(answer):
@@ -62,6 +69,7 @@ def test_an_honest_answer_holds(answer):
     assert not found.wrong and not found.left
     places = {each.place.partition(".")[2] for each in found.derived}
     assert {"rms_ln", "behind_se", "errors.cosine", "seen", "off_percent", "seen_from_best"} <= places
+    assert {"growth.r_mirror", "growth.r_max", "growth.r_max_data", "values_told"} <= places
     assert any(place.endswith("he-torrance.tau.value[0]") for place in places)
     assert digest_holds(answer[1])
 
@@ -85,15 +93,25 @@ def test_several_channels_through_an_aperture_hold_too():
 
 def test_a_changed_digit_of_any_derived_number_is_found(answer):
     measurement, document = answer
-    for place in (each.place for each in verified(answer).derived):
-        if place.startswith("ranking[0]") and "parameters" not in place and "flags" not in place:
+    data, only = verification.readings_of(measurement, document), "lambertian+ward"
+    row = next(number for number, row in enumerate(document["ranking"]) if row["candidate"] == only)
+    for place in (each.place for each in verification.verify(document, data, only).derived):
+        if place.startswith(f"ranking[{row}]") and not any(part in place for part in APART):
             changed = deepcopy(document)
-            *path, last = place.removeprefix("ranking[0].").split(".", 1) if "." in place[11:] else [place[11:]]
-            target = changed["ranking"][0]
+            *path, last = place.partition(".")[2].split(".", 1)
+            target = changed["ranking"][row]
             for name in path:
                 target = target[name]
             target[last] = _one_digit_off(target[last])
-            assert place in [each.place for each in verified(answer, changed).wrong]
+            assert place in [each.place for each in verification.verify(changed, data, only).wrong]
+
+
+def test_so_is_one_of_a_difference_also_where_it_is_none(answer):
+    document = deepcopy(answer[1])
+    for row in document["ranking"]:
+        row["behind"] = _one_digit_off(row["behind"])
+    wrong = {each.place for each in verified(answer, document).wrong}
+    assert wrong >= {f"ranking[{place}].behind" for place in range(len(MODELS))}
 
 
 def test_a_changed_digit_of_a_parameter_is_found(answer):
@@ -104,7 +122,56 @@ def test_a_changed_digit_of_a_parameter_is_found(answer):
         before = entry["value"]
         entry["value"] = [_one_digit_off(v) for v in before] if isinstance(before, list) else _one_digit_off(before)
     wrong = {each.place.partition(".")[0] for each in verified(answer, document).wrong}
-    assert wrong == {f"ranking[{place}]" for place in range(len(MODELS))}
+    assert wrong >= {f"ranking[{place}]" for place in range(len(MODELS))}
+
+
+@pytest.mark.parametrize("place", ["typed", "recommended_fit", "in_plane_rms_ln", "expected_percent", "rms_ln"])
+def test_so_is_one_of_what_is_told_twice_and_of_the_price_out_of_the_plane(answer, place):
+    document = deepcopy(answer[1])
+    typed = document["ranking"][0]["typed"]
+    target, key = {
+        "typed": (typed, next(key for key, value in typed.items() if isinstance(value, float))),
+        "recommended_fit": (document["recommended_fit"]["errors"], "cosine"),
+    }.get(place, (document["off_plane"], place))
+    assert key in target
+    target[key] = _one_digit_off(target[key])
+    assert [each for each in verified(answer, document).wrong if place in each.place]
+
+
+def test_where_a_rival_parts_out_of_the_plane_is_derived(answer):
+    document = deepcopy(answer[1])
+    parameters = {row["candidate"]: row["parameters"] for row in document["ranking"]}
+    best = document["recommended"]
+    other = "lambertian+ggx" if best != "lambertian+ggx" else "lambertian+ward"
+    at = {"theta_i_deg": 40.0, "theta_r_deg": 50.0, "phi_deg": 120.0}
+    geom = rows(Geometry.from_degrees(40.0, 0.0, 50.0, 120.0))
+    one, two = (
+        Surface.named(name, {key: each["value"] for key, each in parameters[name].items() if not each.get("derived")})
+        for name in (other, best)
+    )
+    ratio = float(np.log(one.brdf(geom)[0, 0] / two.brdf(geom)[0, 0]))
+    apart = [{"candidate": other, "rms_ln": 0.2, "then_percent": None, "at": [{**at, "ln_ratio": ratio}]}]
+    document["off_plane"]["apart"] = apart
+    assert "off_plane.apart[0].at[0].ln_ratio" in [each.place for each in verified(answer, document).derived]
+    assert not verified(answer, document).wrong
+    apart[0]["at"][0]["ln_ratio"] = _one_digit_off(ratio)
+    assert [each.place for each in verified(answer, document).wrong] == ["off_plane.apart[0].at[0].ln_ratio"]
+
+
+def test_the_price_is_formed_with_the_constants_of_the_fit():
+    assert (mpf(str(IN_PLANE)), mpf(str(DOUBT))) == (exact_followers.IN_PLANE, exact_followers.DOUBT)
+
+
+def test_what_to_type_follows_from_the_errors_and_colours_beside_it():
+    card = {"numbers": {"Base Color": [0.6528, 0.2, 0.001]}, "hex": {"Base Color": "#d37c03"}}
+    card |= {"rms_ln": 0.055829895185415236, "off_percent": 5.742}
+    found = Comparisons()
+    exact_followers.programs({"numbers": [card]}, found)
+    assert len(found.derived) == 4 and all(each.agrees for each in found.derived)
+    for changed in ({"hex": {"Base Color": "#d27c03"}}, {"hex": {"Base Color": "#d37c0?"}}, {"off_percent": 5.743}):
+        wrong = Comparisons()
+        exact_followers.programs({"numbers": [card | changed]}, wrong)
+        assert sum(not each.agrees for each in wrong.derived) == 1
 
 
 def _one_digit_off(value):

@@ -41,11 +41,22 @@ WITH = {
 }
 
 
+GROWN = {
+    "retro": "lambertian+ggx+retro",
+    "second lobe": "lambertian+ggx:2",
+    "haze": "lambertian+ggx:2",
+    "sheen": "lambertian+ggx+sheen",
+    "flakes": "ggx+coated:lambertian+flakes",
+    "coat": "ggx+coated:lambertian",
+}
+
+
 @pytest.mark.parametrize("kind", WITH)
 def test_each_kind_is_named_with_its_share_and_confidence(kind):
     found = named(WITH[kind])
     assert found is not None and found.kind == kind
     assert 0.3 < found.share <= 1 and found.confidence > 0.9
+    assert found.candidate == GROWN[kind] and models.get(found.candidate)
 
 
 def test_a_second_axis_shows_where_the_sample_was_turned():
@@ -53,7 +64,7 @@ def test_a_second_axis_shows_where_the_sample_was_turned():
     geom = rows(Geometry.from_degrees(GEOM.theta_i_deg, turn, GEOM.theta_r_deg, GEOM.phi_deg + turn))
     grain = values("lambertian+ggx-aniso", geom, albedo=0.2, alpha_x=0.3, alpha_y=0.13, axis=0.0, n=1.5)
     found = named(grain, geom)
-    assert found is not None and found.kind == "second axis"
+    assert found is not None and found.kind == "second axis" and found.candidate == "lambertian+ggx-aniso"
     assert named(values("lambertian+ggx", geom, albedo=0.2, alpha=0.2, n=1.5), geom) is None
 
 
@@ -83,4 +94,5 @@ def test_it_stands_in_document_and_text():
     text = " ".join(off_plane_text(document).split())
     share = f"{100 * block['share']:.0f} % of what is left"
     assert f"what it lacks looks like a lobe about the light: {share}" in text
+    assert text.endswith("lambertian+ggx+retro has it")
     assert missing_block(None) is None and off_plane_text({"missing": None, "off_plane": None}) == ""

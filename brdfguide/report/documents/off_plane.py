@@ -40,6 +40,7 @@ def missing_block(term: MissingTerm | None) -> dict | None:
         "words": term.words,
         "share": term.share,
         "confidence": term.confidence,
+        "with_it": term.candidate,
         "beside": [{"term": kind, "words": WORDS[kind], "share": share} for kind, share in term.beside],
     }
 

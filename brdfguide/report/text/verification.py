@@ -40,6 +40,6 @@ def _left(result: dict) -> str:
     if result["not_derived"]:
         lines.append(
             f"{result['not_derived']} other numbers do not follow from the answer (standard and held-out errors, "
-            f"growth, noise, floor): only the digest holds them"
+            f"noise, floor): only the digest holds them"
         )
     return "\n".join(lines)

@@ -1,0 +1,223 @@
+"""Numbers of an answer that follow from others or from the models, beside its errors: copies, growth, the price out of
+the plane of incidence, what to type.
+
+R-mirror = f(mirror, high)/f(mirror, low) and R-max, the same for the largest value in the plane, of the model and of
+the data (Westin et al. 2004, section 6).    price² = (0.96 error in the plane)² + (3 doubt)²    (ours)
+"""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Protocol
+
+from mpmath import exp, expm1, fsum, log, mpf, sqrt
+
+from .exact_errors import SMALLEST, Readings
+from .exact_surface import ExactReading, ExactSurface
+from .rederived import CLOSE, Comparisons
+
+IN_PLANE, DOUBT = mpf("0.96"), mpf(3)  # of the price
+PRICE_DIGITS = 3
+WIDEST_DEG = 85.0  # R-max looks no farther
+STEPS = 170  # of its scan, from one side to the other
+COARSELY, BESIDE = 10, 3  # of these steps
+NEAR_DEG = 3.0  # the mirror direction was measured
+MOST_HELD = 64  # incidences, beyond which none was held
+ALIKE = 1e-9  # deg
+HALF_A_STEP = 0.501  # of 255, and what six digits of a colour leave open
+HELD_TOGETHER = 0.5e-1  # deg, within which incidences are told as one
+
+
+class RowOfAnswer(Protocol):
+    """One row with its exact surface and error."""
+
+    row: dict
+    place: str
+    surface: ExactSurface
+    rms: mpf
+
+
+def copies(answer: dict, found: Comparisons) -> None:
+    """The recommended row once more, and what to type of each row."""
+    rows = {row["candidate"]: row for row in answer["ranking"]}
+    same = rows.get(answer["recommended"])
+    if same is not None:
+        found.copy("recommended_fit", answer.get("recommended_fit"), same)
+    for place, row in enumerate(answer["ranking"]):
+        for key, value in (row.get("typed") or {}).items():
+            if key in row["parameters"]:
+                found.copy(f"ranking[{place}].typed.{key}", value, row["parameters"][key]["value"])
+
+
+def reflectance_errors(row: dict, place: str, found: Comparisons) -> None:
+    """dF0 = 8nk/((n + 1)² + k²)² dk, where F0 stands in place of k."""
+    for key, entry in row["parameters"].items():
+        if entry.get("in_place_of") is None or entry.get("stderr") is None:
+            continue
+        label = key.rpartition(".")[0]
+        of_k = row["parameters"][f"{label}.k"]
+        n, k, error = (
+            _many(each) for each in (row["parameters"][f"{label}.n"]["value"], of_k["value"], of_k["stderr"])
+        )
+        for channel, told in enumerate(_many(entry["stderr"])):
+            at_n, at_k, at_error = (mpf(each[channel if len(each) > 1 else 0]) for each in (n, k, error))
+            right = 8 * at_n * at_k / ((at_n + 1) ** 2 + at_k**2) ** 2 * at_error
+            found.check(f"{place}.parameters.{key}.stderr[{channel}]", told, right)
+
+
+def _many(value) -> list:
+    return value if isinstance(value, list) else [value]
+
+
+# --- growth ------------------------------------------------------------------------------------------
+
+
+def exact_growth(each: RowOfAnswer, data: Readings, found: Comparisons) -> None:
+    """R-mirror and R-max of model and data; nothing where the scans were not in the plane or not held."""
+    told = each.row.get("growth")
+    if told is None or told["r_max"] is None or len(told["theta_i_deg"]) != 2:
+        return
+    channel, place = len(data.wavelengths) // 2, f"{each.place}.growth"
+    low, high = (_scan(data, theta, channel) for theta in told["theta_i_deg"])
+    if low is None or high is None:
+        return
+    lows, highs = _mirrors(data, low, channel), _mirrors(data, high, channel)
+    right = max(data.exact[row][channel] for row in high) / max(data.exact[row][channel] for row in low)
+    found.check(f"{place}.r_max_data", told["r_max_data"], right)
+    if lows and highs:
+        ratios = [data.exact[b][channel] / data.exact[a][channel] for a in lows for b in highs]
+        found.check(f"{place}.r_mirror_data", told["r_mirror_data"], _nearest(ratios, told["r_mirror_data"]))
+    at = [
+        _at_mirror(each.surface, data, *pair, channel) for pair in zip(told["theta_i_deg"], (lows, highs), strict=True)
+    ]
+    ratios = [b / a for a in at[0] for b in at[1] if a > 0]
+    if ratios:
+        found.check(f"{place}.r_mirror", told["r_mirror"], _nearest(ratios, told["r_mirror"]))
+    for steps in (COARSELY, 1):  # every step only where fewer do not agree
+        first, last = (_largest(each.surface, data, theta, channel, steps) for theta in told["theta_i_deg"])
+        right = last / first if first > 0 else mpf(told["r_max"])
+        if abs(right - mpf(told["r_max"])) <= CLOSE * right:
+            break
+    found.check(f"{place}.r_max", told["r_max"], right)
+
+
+def _scan(data: Readings, theta: float, channel: int) -> list[int] | None:
+    """Rows of one held incidence with a value; None where there are none, or where they leave the plane."""
+    if len({round(each[0], 1) for each in data.angles}) > MOST_HELD:
+        return None
+    rows = [row for row, each in enumerate(data.angles) if abs(each[0] - theta) < HELD_TOGETHER]
+    turns = [(data.angles[row][3] - data.angles[row][1]) % 180 for row in rows]
+    if any(min(turn, 180 - turn) > ALIKE for turn in turns):
+        return None
+    rows = [row for row in rows if data.told[row][channel]]
+    return rows or None
+
+
+def _mirrors(data: Readings, rows: list[int], channel: int) -> list[int]:
+    """Rows nearest to the mirror direction, two where it lies between them; none where none is within 3 degrees."""
+    away = {row: abs(data.signed_theta_r[row] - data.angles[row][0]) for row in rows}
+    least = min(away.values())
+    return [row for row in rows if away[row] <= least + ALIKE] if least <= NEAR_DEG else []
+
+
+def _at_mirror(surface: ExactSurface, data: Readings, theta: float, rows: list[int], channel: int) -> list:
+    """The model at the measured directions nearest to the mirror's, at the mirror's where there is none."""
+    sights = [data.sights[row] for row in rows] or [ExactReading((theta, 0.0, theta, 180.0), data.solid_angle)]
+    return [sight.reading(surface, channel, data.wavelengths[channel]) for sight in sights]
+
+
+def _largest(surface: ExactSurface, data: Readings, theta: float, channel: int, each: int):
+    """The model's largest value in the plane of incidence, in steps of a degree; or `each` so many steps, and all
+    beside the largest of them, the mirror direction and the light."""
+    side = min(WIDEST_DEG, max(angles[2] for angles in data.angles))
+    step = 2 * side / STEPS
+
+    @cache
+    def value(number: int):
+        theta_r = side if number == STEPS else number * step - side
+        sight = ExactReading((theta, 0.0, abs(theta_r), 0.0 if theta_r < 0 else 180.0), data.solid_angle)
+        return sight.reading(surface, channel, data.wavelengths[channel])
+
+    places = {*range(0, STEPS + 1, each), STEPS}
+    for around in (theta, -theta):
+        places |= _beside(round((around + side) / step), BESIDE)
+    return max(value(number) for number in places | _beside(max(places, key=value), each))
+
+
+def _beside(number: int, most: int) -> set[int]:
+    """Steps around one."""
+    return set(range(max(number - most, 0), min(number + most, STEPS) + 1))
+
+
+def _nearest(ratios: list, told):
+    """Of equally near directions the one that was taken."""
+    return min(ratios, key=lambda each: abs(each - mpf(told if told is not None else 0)))
+
+
+# --- out of the plane --------------------------------------------------------------------------------
+
+
+def price(answer: dict, rows: Mapping[str, RowOfAnswer], data: Readings, found: Comparisons) -> None:
+    """The expected error out of the plane from its parts, and where rivals part from the recommended law."""
+    told, best = answer.get("off_plane"), rows.get(answer["recommended"])
+    if told is None or best is None:
+        return
+    expected = sqrt((IN_PLANE * best.rms) ** 2 + (DOUBT * mpf(told["parameters_rms_ln"])) ** 2)
+    found.check("off_plane.in_plane_rms_ln", told["in_plane_rms_ln"], best.rms)
+    found.check("off_plane.rms_ln", told["rms_ln"], expected)
+    found.rounded("off_plane.expected_percent", told["expected_percent"], _percent(expected), PRICE_DIGITS)
+    for number, each in enumerate(told["apart"]):
+        place = f"off_plane.apart[{number}]"
+        then = sqrt(expected**2 + mpf(each["rms_ln"]) ** 2)
+        found.rounded(f"{place}.then_percent", each["then_percent"], _percent(then), PRICE_DIGITS)
+        rival = rows.get(each["candidate"])
+        for rank, at in enumerate(each["at"] if rival is not None else ()):
+            assert rival is not None
+            sight = ExactReading((at["theta_i_deg"], 0.0, at["theta_r_deg"], at["phi_deg"]), data.solid_angle)
+            right = _mean_ln(rival.surface, sight, data) - _mean_ln(best.surface, sight, data)
+            found.check(f"{place}.at[{rank}].ln_ratio", at["ln_ratio"], right, absolute=1e-12)
+
+
+def _mean_ln(surface: ExactSurface, sight: ExactReading, data: Readings):
+    """ln of what is read there, the mean over the channels."""
+    every = [max(sight.reading(surface, c, um), SMALLEST) for c, um in enumerate(data.wavelengths)]
+    return fsum(log(each) for each in every) / len(every)
+
+
+def _percent(rms):
+    return 100 * expm1(min(rms, mpf(50)))
+
+
+# --- what to type into other programs ----------------------------------------------------------------
+
+
+def programs(answer: dict, found: Comparisons) -> None:
+    """Percentages from the errors beside them, and the colours in sRGB from those in linear light."""
+    for number, card in enumerate(answer.get("numbers") or ()):
+        place = f"numbers[{number}]"
+        for error, percent in (("rms_ln", "off_percent"), ("measured_rms_ln", "measured_off_percent")):
+            if card.get(error) is not None:
+                found.rounded(f"{place}.{percent}", card.get(percent), _percent(mpf(card[error])))
+        for label, told in card["hex"].items():
+            for channel, linear in enumerate(_many(card["numbers"].get(label, []))):
+                found.check(
+                    f"{place}.hex.{label}[{channel}]",
+                    _byte(told[1 + 2 * channel : 3 + 2 * channel]),
+                    255 * _encoded(linear),
+                    absolute=HALF_A_STEP,
+                )
+
+
+def _byte(two_digits: str) -> int:
+    """-1 where they are none."""
+    try:
+        return int(two_digits, 16)
+    except ValueError:
+        return -1
+
+
+def _encoded(linear: float):
+    """sRGB's curve (IEC 61966-2-1)."""
+    light = min(max(mpf(linear), mpf(0)), mpf(1))
+    if light <= mpf("0.0031308"):
+        return mpf("12.92") * light
+    return mpf("1.055") * exp(log(light) / mpf("2.4")) - mpf("0.055")
