@@ -14,7 +14,7 @@ from ..physics.picked_colour import of_hex
 from ..physics.roughness_senses import SENSES, USUAL, alpha_of
 from ..yaml_schema import Document, parse, read, written
 from .observed_fields import FIELDS, OBSERVATIONS, PATCHES
-from .profile import HEIGHTS, height_of, length_of
+from .profile import HEIGHTS, band_of, height_of, length_of, with_spectrum
 
 ROUND_ASPECT = 1.1  # of a highlight, up to which a mounting or the lamp's own shape explains it (ours)
 CONVERTED = ("gloss", "f0", "measurements", "name", "base_color")  # keys whose field holds another form of them
@@ -112,7 +112,8 @@ def observed(observations: Mapping) -> Material:
 
 
 def from_document(document: Document) -> Material:
-    return from_values(document.values, document.name)
+    """A Material from what was read, with the spectrum of heights that it names. Raises InputError where it is none."""
+    return from_values(with_spectrum(document.values, document.name), document.name)
 
 
 def from_values(given: Mapping, name: str = "") -> Material:
@@ -145,8 +146,8 @@ def from_values(given: Mapping, name: str = "") -> Material:
         values["sigma"] = known.value
     if known := length_of(given):
         values["tau"] = known.value
-    if "cutoff_um" in given.get("stylus", {}):
-        values["cutoff"] = given["stylus"]["cutoff_um"]
+    if low := band_of(given.get("stylus", {}))[0]:
+        values["cutoff"] = 1 / low
     if "wavelength_nm" in given:
         values["wavelength"] = given["wavelength_nm"] / 1000
     return Material(**values, given=given)
@@ -226,8 +227,8 @@ def _ratio(document: Document):
 
 def _stylus(document: Document):
     stylus = document.values.get("stylus")
-    if stylus is not None and not stylus.keys() & {*HEIGHTS, "tau_um", "rsm_um"}:
-        yield "stylus", f"'stylus' needs a height ({', '.join(HEIGHTS)}), tau_um or rsm_um"
+    if stylus is not None and not stylus.keys() & {*HEIGHTS, "tau_um", "rsm_um", "spectrum"}:
+        yield "stylus", f"'stylus' needs a height ({', '.join(HEIGHTS)}), tau_um, rsm_um or a spectrum"
     if stylus is not None and stylus.keys() & {"rdq", "sdq"} and not stylus.keys() & HEIGHTS.keys():
         yield "stylus", f"'stylus' has a slope without a height; give one of: {', '.join(HEIGHTS)}"
     short, long = (stylus or {}).get("shortest_um"), (stylus or {}).get("cutoff_um")

@@ -189,6 +189,7 @@ OBSERVATIONS = (
             Field("sdq", "number", above=0, high=14, meaning="Sdq, the rms gradient of an area"),
             Field("cutoff_um", "number", unit="µm", low=1e-3, high=100000, meaning="longest wavelength kept"),
             Field("shortest_um", "number", unit="µm", low=1e-3, high=100000, meaning="shortest wavelength kept"),
+            Field("spectrum", "text", meaning="file of the profile's or the area's spectrum, two columns, f and S"),
         ),
     ),
     Field(

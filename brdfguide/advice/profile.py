@@ -1,13 +1,18 @@
 """What the numbers of a profilometer and a total scatter say of rms height and correlation length, and by which key.
 
-Heights are taken as Gaussian, and so is their correlation (`physics.profile_numbers`).
+Heights are taken as Gaussian, and so is their correlation (`physics.profile_numbers`). A spectrum in a file is read
+where the description is read: under `stylus.spectrum` then stand the height, the slope and the waves that it tells of.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, erf, log1p, pi, radians, sqrt
+from pathlib import Path
 
-from ..physics import profile_numbers
+from ..data.spectrum_file import is_spectrum, read_spectrum
+from ..errors import InputError
+from ..opening import exists, is_plain
+from ..physics import height_spectrum, profile_numbers
 from ..physics.emergence import WAVELENGTH
 
 # keys of a height, the most direct first -> rms height over it
@@ -42,6 +47,9 @@ def height_of(given: Mapping) -> Known | None:
                 else ""
             )
             return Known(f"stylus.{key}", factor * stylus[key], how)
+    if told := stylus.get("spectrum"):
+        how = f"rms height {told['rq_um']:.3g} µm: of the spectrum in {told['file']}, {_waves(told)}"
+        return Known("stylus.spectrum", told["rq_um"], how)
     if tis := given.get("tis"):
         light = tis.get("wavelength_nm", 1000 * WAVELENGTH) / 1000
         sigma = light * sqrt(-log1p(-tis["share"])) / (4 * pi * cos(radians(tis.get("theta_i_deg", 0.0))))
@@ -62,6 +70,10 @@ def length_of(given: Mapping) -> Known | None:
         return Known(
             "stylus.rsm_um", tau, f"correlation length {tau:.3g} µm: RSm/(√2 π), the correlation being Gaussian"
         )
+    told = stylus.get("spectrum")
+    if key is None and told:
+        tau = profile_numbers.tau_from_slope(told["rq_um"], told["rdq"])
+        return Known("stylus.spectrum", tau, f"correlation length {tau:.3g} µm: √2 Rq/Rdq of the spectrum")
     if key is None or height is None:
         return None
     rdq = stylus[key] / sqrt(2) if key == "sdq" else stylus[key]
@@ -75,11 +87,51 @@ def kept(stylus: Mapping, tau: float) -> float | None:
 
     1 - (variance of waves longer than λc) - (of waves shorter than λs), each of S1 ∝ exp(-(π tau ν)²).
     """
-    if not stylus.keys() & {"cutoff_um", "shortest_um"}:
+    low, high = band_of(stylus)
+    if not low and high is None:
         return None
-    shorter = _within(tau, 1 / stylus["shortest_um"]) if "shortest_um" in stylus else 1.0
-    longer = _within(tau, 1 / stylus["cutoff_um"]) if "cutoff_um" in stylus else 0.0
-    return max(shorter - longer, 0.0)
+    return max((1.0 if high is None else _within(tau, high)) - _within(tau, low), 0.0)
+
+
+def band_of(stylus: Mapping) -> tuple[float, float | None]:
+    """Spatial frequencies [1/µm] that a profile holds: 0 and None where no cut-off is known."""
+    stated = stylus.get("spectrum", {}) | {key: stylus[key] for key in ("cutoff_um", "shortest_um") if key in stylus}
+    low = 1 / stated["cutoff_um"] if "cutoff_um" in stated else 0.0
+    return low, 1 / stated["shortest_um"] if "shortest_um" in stated else None
+
+
+def spectrum_at(name: str, description: str) -> Path:
+    """The spectrum's file beside the description that names it.
+
+    Raises InputError unless it is a plain file whose header is a spectrum's: a description comes from other people, and
+    may name any file that we can read, so that nothing of another one is quoted.
+    """
+    path = Path(description).parent / name
+    where = f"{description}: its spectrum {path}"
+    if not exists(path):
+        raise InputError(f"{where}: there is no such file")
+    if not is_plain(path) or not is_spectrum(path):
+        raise InputError(f"{where} is none; wanted two columns with the header `f (1/um), S (um^3)` or `S (um^4)`")
+    return path
+
+
+def with_spectrum(given: Mapping, description: str) -> Mapping:
+    """Observations with what the spectrum's file tells in place of its name: rq_um, rdq and both ends of its waves."""
+    name = given.get("stylus", {}).get("spectrum")
+    if not isinstance(name, str):
+        return given
+    found = read_spectrum(spectrum_at(name, description))
+    if found.profile:
+        rq, rdq = height_spectrum.profile_height(found), height_spectrum.profile_slope(found)
+    else:
+        rq, rdq = height_spectrum.surface_height(found), height_spectrum.surface_gradient(found) / sqrt(2)
+    low, high = found.ends
+    told = {"file": name, "rq_um": rq, "rdq": rdq, "cutoff_um": 1 / low, "shortest_um": 1 / high, "points": found}
+    return {**given, "stylus": {**given["stylus"], "spectrum": told}}
+
+
+def _waves(told: Mapping) -> str:
+    return f"waves of {told['shortest_um']:.3g} to {told['cutoff_um']:.3g} µm"
 
 
 def _within(tau: float, frequency: float) -> float:

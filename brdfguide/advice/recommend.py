@@ -71,6 +71,12 @@ class Recommendation:
     rests_on: Mapping[str, tuple[str, ...]]  # rule -> keys without which it would be silent or say something else
     inference: Inference | None  # from what was read of roughness and index; None: nothing was
 
+    def headed_by(self, model: str, why: str) -> "Recommendation":
+        """The same with another candidate first, and why."""
+        first = next(each for each in self.candidates if each.model.name == model)
+        rest = tuple(each for each in self.candidates if each is not first)
+        return replace(self, candidates=(replace(first, why=why), *rest))
+
     @property
     def reasons(self) -> tuple[Advice, ...]:
         return tuple(each for each in self.advice if each.domain)

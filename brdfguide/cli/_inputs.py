@@ -11,7 +11,7 @@ from ._numbers import numbers_of
 from ._options import print_json, progress, tell
 from ._report import show_ranking
 from ._scene import of_ranking
-from ._surface import export_all
+from ._surface import export_fitted
 
 
 @dataclass(frozen=True)
@@ -136,17 +136,8 @@ def _with_measurement(advised, advised_document: dict | None, file: Data, reques
     if request.as_:
         as_block, fitted_as_shader[request.as_] = fitted_as(request.as_, ranked, data, kind)
         scene += "\n\n" + as_shader_text(printable.document({"as": as_block})["as"])
-    written, failed = export_all(
-        request.exporting,
-        best.surface,
-        data.geom,
-        data.name,
-        output.quiet,
-        measured=data.brdf,
-        fitted=fitted_as_shader,
-    )
     result = with_measurement(advised_document, judged, differ, fitted)
-    result |= {"exports": written} if request.exporting.export else {}
+    failed = export_fitted(request.exporting, best.surface, data, data.name, result, fitted_as_shader, output.quiet)
     result |= {"as": as_block} if request.as_ else {}
     scene += numbers_of([best.surface], request, result, data)
     show_ranking(request.pictures, result, ranked, data, file.path, quiet=output.quiet)

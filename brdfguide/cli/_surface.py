@@ -114,6 +114,17 @@ def export_all(
     return written, None
 
 
+def export_fitted(exporting: Exporting, surface, measurement, name: str, document: dict, fitted, quiet: bool):
+    """Every `--export` of a fit, with its error against the measurement; adds what was written to the document. Gives
+    the error that stopped it, or None.    Takes  fitted, target -> the surface fitted as that shader."""
+    if not exporting.export:
+        return None
+    document["exports"], failed = export_all(
+        exporting, surface, measurement.geom, name, quiet, measured=measurement.brdf, fitted=fitted
+    )
+    return failed
+
+
 def surfaces_of(words: list[str], model: str | None, channel: str | None, name: str, command: str) -> list:
     """The ColouredSurfaces that the words and options mean: of a material every candidate, best first; else one.
 

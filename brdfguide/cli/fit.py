@@ -18,7 +18,7 @@ from ._options import FullOption, Output, command_line, is_pattern, output_file,
 from ._report import ANGLE, Pictures, checked_axis, print_ranking, show_ranking
 from ._request import refuse
 from ._scene import SceneOption
-from ._surface import AsOption, Exporting, export_all
+from ._surface import AsOption, Exporting, export_fitted
 
 EXAMPLES = "Examples: brdfguide fit examples/rough_plastic.csv --plot fit.png | brdfguide fit *.csv --jobs 2 --out fits"
 
@@ -219,17 +219,7 @@ def fit_one(file: Path, request: FitRequest) -> None:
     if request.residuals:
         write_whole(request.residuals, residuals_csv(residuals(best, measurement)))
     show_ranking(request.pictures, result, ranked, measurement, file, request.x, output.quiet)
-    failed = None
-    if request.exporting.export:
-        result["exports"], failed = export_all(
-            request.exporting,
-            best.surface,
-            measurement.geom,
-            file.stem,
-            output.quiet,
-            measured=measurement.brdf,
-            fitted=fitted,
-        )
+    failed = export_fitted(request.exporting, best.surface, measurement, file.stem, result, fitted, output.quiet)
     print_ranking(with_digest(result), ranked, measurement, more, output, request.full)
     if failed:
         raise failed

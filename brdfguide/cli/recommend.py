@@ -1,6 +1,7 @@
 """`brdfguide recommend INPUT...`: a model with parameters for a described surface, a measured one, or both."""
 
 from dataclasses import dataclass
+from math import expm1
 from typing import Annotated
 
 from typer import Argument, Context, Exit, Option
@@ -103,16 +104,19 @@ def of_descriptions(answers, request: RecommendRequest) -> None:
     from ..report.text.recommendation import text
 
     output = request.output
+    held: list[dict] = []
+    if request.as_:
+        answers, held = _for_target(answers, request.as_)
     documents = [recommendation.document(each, output.timing, request.explain) for each in answers]
     texts = [text(printable.document(each), request.explain, request.full) for each in documents]
     if request.scene:
         for place, (answer, document) in enumerate(zip(answers, documents, strict=True)):
             texts[place] += of_answer(request.scene, answer, document, output)
     if request.as_:
-        for place, answer in enumerate(answers):
-            if answer.candidates:
-                documents[place]["as"] = _as_shader(answer, request.as_)
-                texts[place] += "\n\n" + described_as_text(printable.document(documents[place])["as"])
+        for place, block in enumerate(held):
+            if block:
+                documents[place]["as"] = block
+                texts[place] += "\n\n" + described_as_text(printable.document(block))
     for place, answer in enumerate(answers):
         surfaces = [each.surface for each in answer.candidates]
         texts[place] += numbers_of(surfaces, request, documents[place])
@@ -137,15 +141,29 @@ def of_descriptions(answers, request: RecommendRequest) -> None:
         raise Exit(1)
 
 
-def _as_shader(answer, name: str) -> dict:
-    """Of the candidates that which the shader holds best, with the shader's numbers and their error."""
+def _for_target(answers, name: str) -> tuple[list, list[dict]]:
+    """The answers, each headed by the candidate that the shader holds, and the shader's numbers with their error."""
     from ..exporters import coloured, held_best, statement_document
     from ..face.surfaces import every_candidate
     from ..report.documents.plain import plain
+    from ..report.text.values import off_words
 
-    shown = [coloured(each, answer.material.name or "surface") for each in every_candidate(answer)]
-    taken, made = held_best(name, shown)
-    return plain(statement_document(made.statement, taken, []))
+    headed: list = []
+    blocks: list[dict] = []
+    for answer in answers:
+        if not answer.candidates:
+            headed.append(answer)
+            blocks.append({})
+            continue
+        shown = [coloured(each, answer.material.name or "surface") for each in every_candidate(answer)]
+        taken, made = held_best(name, shown)
+        first, off = answer.candidates[0].model.name, off_words(100 * expm1(min(made.statement.rms_ln, 50.0)))
+        if taken.model.name != first:
+            why = f"{name} holds it, {off} off; without --as {first} comes first"
+            answer = answer.headed_by(taken.model.name, why)
+        headed.append(answer)
+        blocks.append(plain(statement_document(made.statement, taken, [])))
+    return headed, blocks
 
 
 def _exported(answer, request: RecommendRequest) -> tuple[list[dict], BrdfguideError | None]:

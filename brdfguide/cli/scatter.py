@@ -254,8 +254,9 @@ def _of_description(path: str, rest: list[str], request: ScatterRequest) -> dict
     from dataclasses import replace
 
     from ..advice.material import read_material
-    from ..advice.profile import HEIGHTS, height_of
+    from ..advice.profile import HEIGHTS, band_of, height_of, spectrum_at
     from ..data import formats
+    from ..data.spectrum_file import read_spectrum
     from ..fitting.three_ways import Profile, Total
     from ..report.documents import scatter as documents
 
@@ -271,7 +272,11 @@ def _of_description(path: str, rest: list[str], request: ScatterRequest) -> dict
     )
     wavelength = float(measurement.geom.wavelength.ravel()[0])
     profile = total = None
-    if stylus.keys() & HEIGHTS.keys():
+    if told := stylus.get("spectrum"):
+        spectrum = read_spectrum(spectrum_at(told["file"], path))
+        low, high = band_of(stylus)
+        profile = Profile((low, high or spectrum.ends[1]), spectrum=spectrum)
+    elif stylus.keys() & HEIGHTS.keys():
         if not {"shortest_um", "cutoff_um"} <= stylus.keys():
             raise InputError(f"{path}: 'stylus' needs 'shortest_um' and 'cutoff_um': a height is compared in its band")
         height = height_of(given)

@@ -11,7 +11,7 @@ from ..models.surface import Surface
 from ..physics import seen
 from ..physics.geometry import Geometry
 from . import _grained
-from ._choice import GOOD, with_the_coat
+from ._choice import GOOD, in_order_for
 from ._nearest import with_the_nearest
 from ._shown import off_the_measurement
 from .exporter import ColouredSurface, Export, Exporter, Refused, Statement, coloured
@@ -68,13 +68,14 @@ def held_best(
     stem: str = "surface",
 ) -> tuple[ColouredSurface, Export]:
     """Of candidates for one surface, best first, the first that a target holds within GOOD, else the one that it holds
-    best; with its file. A coat's mirror is not given up for a better number.
+    best; with its file. A target of one lobe is tried with that lobe first. A coat's mirror is not given up for
+    a better number.
 
     Raises what `export` raises for the first where none can be written.
     """
     found: list[tuple[ColouredSurface, Export]] = []
     refused: list[NoAnswer] = []
-    for surface in with_the_coat(surfaces):
+    for surface in in_order_for(surfaces, get(target).lobe):
         try:
             found.append((surface, export(target, surface, geom, stem=stem)))
         except NoAnswer as error:
@@ -94,7 +95,7 @@ def held_best(
 
 def _for_the_target(statement: Statement, first: ColouredSurface, taken: ColouredSurface) -> Statement:
     """With the sentence that another candidate than the recommended one is written."""
-    why = f"written of {taken.model.name}: {statement.target} holds less of the recommended {first.model.name}"
+    why = f"written of {taken.model.name}, which {statement.target} holds, not of the recommended {first.model.name}"
     return replace(statement, notes=(*statement.notes, why))
 
 

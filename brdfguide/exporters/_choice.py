@@ -159,12 +159,19 @@ def fresnel_index(surface: ColouredSurface, spectral: bool = False) -> tuple[np.
     return None if n is None or k is None else (n, k)
 
 
-def with_the_coat(surfaces: Sequence[ColouredSurface]) -> list[ColouredSurface]:
-    """Of candidates for one surface those that keep the mirror of a coat, where the first has one over something."""
+def in_order_for(surfaces: Sequence[ColouredSurface], lobe: str = "") -> list[ColouredSurface]:
+    """Of candidates for one surface, best first, those that keep the mirror of a coat, where the first has one over
+    something; those whose lobes are the target's own, where it has one alone, first."""
     terms = [term.model for term in surfaces[0].model.terms]
-    if len(terms) == 1 or not any(each.is_mirror or each.is_coat for each in terms):
-        return list(surfaces)
-    return [each for each in surfaces if each.has_mirror] or list(surfaces)
+    coated = len(terms) > 1 and any(each.is_mirror or each.is_coat for each in terms)
+    kept = [each for each in surfaces if each.has_mirror] if coated else []
+    return sorted(kept or surfaces, key=lambda each: bool(lobe) and not _has_lobe_of(each, lobe))
+
+
+def _has_lobe_of(surface: ColouredSurface, lobe: str) -> bool:
+    """Whether every lobe is of that law, with or without a grain."""
+    found = [term.model for term in surface.model.terms if term.model.is_lobe]
+    return all((each.base or each).name.removesuffix("-aniso") == lobe for each in found)
 
 
 def has_body(surface: ColouredSurface) -> bool:

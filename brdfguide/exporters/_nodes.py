@@ -6,7 +6,7 @@ part then count alike.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -25,6 +25,12 @@ METAL_STARTS = (0.1, 0.5, 0.9)
 ALIKE = 0.2  # rms ln within which a polished base is taken before a coat over a base
 HIGH_DEG = 60.0  # beyond, laws and shaders part over what lies under a surface
 FAINT = 1e-2  # of a mirror's highest value: below it is not seen beside it
+# why a shader's best numbers are far off a body, a lobe under a coat, what lies under a coat that bends light
+LACKS = {
+    "body": "it takes from the body what the surface above reflects, and the law adds both",
+    "lobe": "it takes from the lobe what the coat reflects, and the law adds both",
+    "coat": "light is not bent in its coat, so that what lies below grows toward grazing as if it were bare",
+}
 
 
 @dataclass(frozen=True)
@@ -35,7 +41,7 @@ class Node:
     roughness: str
     metalness: str
     index: str
-    weight: str  # of the lobe on a body; 0: matt
+    weight: str  # of the lobe on a body; 0: matt; "": the index alone says how high it is
     edge: str  # a metal's edge colour; "": it has none
     coat: str
     coat_roughness: str
@@ -48,6 +54,8 @@ class Node:
     # roughness, grain -> widths across and along, where MaterialX masks light and view with one width and the law
     # with both
     widths: Callable[..., tuple] | None = None
+    coat_mirror: float = 0.0  # what `coat_roughness` is of a coat that is a mirror
+    lacks: Mapping[str, str] = field(default_factory=lambda: LACKS)  # what keeps it from a body, a lobe, a coat's base
 
     def target(self, free: tuple[str, ...], **fixed) -> TargetModel:
         """The law with some numbers free and the rest at `fixed` and its defaults."""
@@ -63,7 +71,7 @@ class Node:
 
     def _parameter(self, name: str, fixed: Mapping) -> Parameter:
         p = self.law.parameter(name)
-        if name == self.coat_roughness:  # a mirror has no lobe to judge by
+        if name == self.coat_roughness and self.coat_mirror == 0:  # a mirror has no lobe to judge by
             return replace(p, low=0.04, log=True, starts=(0.1, 0.3, 0.6))
         if name in (self.weight, self.coat):  # at 0 nothing would be left to judge
             return replace(p, low=1e-4, log=True, starts=(0.1, 1.0))
@@ -116,7 +124,7 @@ class Node:
         `n`: index of a coat that is known to be there; None: whatever makes the mirror.
         """
         held, coat = self._coat(n)
-        mirror = {self.coat_roughness: 0.0, **held}
+        mirror = {self.coat_roughness: self.coat_mirror, **held}
         metal = {self.metalness: 1.0}
         haze = (self.coat, self.coat_roughness)
         over_metal = {"metal under a coat": self.target(("base_color", self.roughness, *coat), **metal, **mirror)}
@@ -125,11 +133,12 @@ class Node:
             hazy = self.target(("base_color", *haze), **metal, **{self.roughness: 0.0})
             hazy_metal = {"polished metal under a haze": hazy} if hazes else {}
             return over_metal | self._coated_lobes(mirror, coat) | hazy_metal
-        lobe, polished = ("base_color", self.roughness, self.weight), {self.roughness: 0.0}
+        lobe, polished = ("base_color", self.roughness, self.weight or self.index), {self.roughness: 0.0}
+        index = {self.index: 2.5} if self.weight else {}
         hazy = self.target(("base_color", self.index, *haze), **polished)
         return {
             "matt under a coat": self.target(("base_color", *coat), **self.matt, **mirror),
-            "dielectric under a coat": self.target((*lobe, *coat), **mirror, **{self.index: 2.5}),
+            "dielectric under a coat": self.target((*lobe, *coat), **mirror, **index),
             **({"polished body under a haze": hazy} if hazes else {}),
             **over_metal,
         }
@@ -151,8 +160,9 @@ class Node:
 
     def _coated_lobes(self, mirror: Mapping, coat: tuple[str, ...]) -> dict[str, TargetModel]:
         """Over flakes and metals besides: an edge that dims a lobe toward grazing, a weak lobe."""
-        weak = {"base_color": 0.0, self.index: 2.5, **mirror}
-        found = {"lobe under a coat": self.target((self.roughness, self.weight, *coat), **weak)}
+        weak = {"base_color": 0.0, **({self.index: 2.5} if self.weight else {}), **mirror}
+        free = (self.roughness, self.weight or self.index, *coat)
+        found = {"lobe under a coat": self.target(free, **weak)}
         if self.edge:
             free = ("base_color", self.edge, self.roughness, *coat)
             found["edged metal under a coat"] = self.target(free, **{self.metalness: 1.0}, **mirror)
@@ -211,14 +221,15 @@ def what_it_costs(node: Node, surface: ColouredSurface, choice: Choice) -> tuple
 def _lacks(node: Node, surface: ColouredSurface, choice: Choice) -> str:
     """Why the best numbers are far off, and how far where light and eye stand high."""
     kinds = [term.model for term in surface.model.terms]
+    body = any(kind.is_body for kind in kinds) or has_body(surface) and kinds[0].settings
     if any(kind.is_coat for kind in kinds) and len(kinds) > 1:
-        why = "light is not bent in its coat, so that what lies below grows toward grazing as if it were bare"
+        why = node.lacks["coat"]
     elif surface.has_mirror and not any(kind.is_mirror for kind in kinds):
         why = "the mirror image of a rough surface becomes a coat's, which does not fade as waves fade it"
-    elif any(kind.is_body for kind in kinds) or has_body(surface) and kinds[0].settings:
-        why = "it takes from the body what the surface above reflects, and the law adds both"
-    elif surface.has_mirror and len(kinds) > 1:
-        why = "it takes from the lobe what the coat reflects, and the law adds both"
+    elif body and "body" in node.lacks:
+        why = node.lacks["body"]
+    elif not body and surface.has_mirror and len(kinds) > 1 and "lobe" in node.lacks:
+        why = node.lacks["lobe"]
     elif node.masked_alike and _grained.axis_of(surface) is not None:
         why = "it masks light and view with one width, whichever way they stand"
     elif node.by_schlick:

@@ -1,21 +1,25 @@
 """Programs whose shaders take typed numbers: the law that each evaluates, and what its fields are called.
 
-Blender's bodies are Standard Surface's in MaterialX and its metals OpenPBR's under a coat that does not darken;
-Substance's metallic roughness means what Unreal's default lit means, and calls specular specular level.
+Blender's bodies are Standard Surface's in MaterialX and its metals OpenPBR's under a coat that does not darken; its
+widths across and along a grain are roughness² over and times √(1 - 0.9 Anisotropic). A rotation is typed as a share of
+a turn or in radians where a program has a number for it; Unreal, OpenPBR and Mitsuba turn the tangent of the mesh.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import pi
 
 import numpy as np
 
 from .. import catalog
-from ..models.model import Model
-from . import _engine_laws
+from . import _principled, _substance, _unreal
 from ._choice import has_body
 from ._nodes import Node
 from .exporter import ColouredSurface
+
+AS_TURNS = 1 / (2 * pi)
+BLENDERS_MOST = 0.9  # of 1 - (alpha along/alpha across)
 
 
 @dataclass(frozen=True)
@@ -29,60 +33,39 @@ class Program:
     formula: str
     always: tuple[str, ...]  # labels that are shown though they keep the default
     read_twice: bool = False  # whether programs read the shader's text in two published ways
-    grain: Callable[[Mapping], Mapping[str, float]] | None = None  # values of the law -> what is typed of a grain
-    turned_by: str = ""  # what lies along the streak there, where the shader does not turn it itself
+    coated: str = ""  # the shader that has the coat; "": the same
+    rotation: tuple[str, float] | None = None  # label of a grain's direction, of a radian, negative: clockwise
+    tangent: str = "the tangent of the mesh"  # what lies along the streak where no rotation is typed
+    retyped: Callable[[Mapping], Mapping] = dict  # values of the law -> those of the program
 
 
 def _node(target: str) -> Node:
     return catalog.load("exporters", target).NODE
 
 
-def _blender(surface: ColouredSurface) -> Node:
-    return _node("standard-surface") if has_body(surface) else _blenders_metal()
+@lru_cache(maxsize=2)
+def _blenders(body: bool) -> Node:
+    node = _node("standard-surface" if body else "openpbr")
+    parameters = []
+    for p in node.law.parameters:
+        if p.name == "coat_darkening":
+            p = replace(p, default=0.0)
+        parameters.append(replace(p, high=BLENDERS_MOST) if p.name == node.grain else p)
+    return replace(node, law=replace(node.law, parameters=tuple(parameters)))
 
 
-@lru_cache(maxsize=1)
-def _blenders_metal() -> Node:
-    node = _node("openpbr")
-    parameters = tuple(replace(p, default=0.0) if p.name == "coat_darkening" else p for p in node.law.parameters)
-    return replace(node, law=replace(node.law, parameters=parameters))
-
-
-def _axis(values: Mapping) -> float:
-    """Azimuth [rad] of the streak, within half a turn."""
-    return float(np.remainder(np.ravel(values["axis"])[0], np.pi))
-
-
-def _blenders_grain(values: Mapping) -> dict[str, float]:
-    """Principled's widths are roughness²/aspect and roughness² aspect, aspect = √(1 - 0.9 anisotropic), its rotation
-    counter-clockwise (Blender 4.5, svm/closure.h); ratios end at 10."""
-    roughness = float(np.ravel(values["specular_roughness"])[0])
-    if "specular_roughness_anisotropy" in values:  # OpenPBR's r⁴ is the mean of both squares
-        ratio = 1 - float(values["specular_roughness_anisotropy"])
-        roughness *= (2 * ratio / (1 + ratio * ratio)) ** 0.25
-    else:
-        ratio = 1 - float(values["specular_anisotropy"])
-    typed = min((1 - ratio) / 0.9, 1.0)
-    return {"Roughness": roughness, "Anisotropic": typed, "Anisotropic Rotation": _axis(values) / (2 * np.pi)}
-
-
-def _standard_grain(values: Mapping) -> dict[str, float]:
-    """As MaterialX turns: clockwise."""
-    turn = float(np.remainder(-_axis(values), np.pi) / (2 * np.pi))
-    return {"specular_anisotropy": float(values["specular_anisotropy"]), "specular_rotation": turn}
-
-
-def _openpbrs_grain(values: Mapping) -> dict[str, float]:
-    return {"specular_roughness_anisotropy": float(values["specular_roughness_anisotropy"])}
-
-
-def _gltfs_grain(values: Mapping) -> dict[str, float]:
-    """The rotation in radians, counter-clockwise."""
-    return {"anisotropyStrength": float(values["anisotropy_strength"]), "anisotropyRotation": _axis(values)}
-
-
-def _mitsubas_grain(values: Mapping) -> dict[str, float]:
-    return {"anisotropic": float(values["anisotropic"])}
+def _as_blender_types(values: Mapping) -> dict:
+    """Roughness and Anisotropic of the two widths that the law has by its own numbers."""
+    typed = dict(values)
+    for name in ("specular_anisotropy", "specular_roughness_anisotropy"):
+        if name not in values:
+            continue
+        share = float(np.ravel(values[name])[0])
+        typed[name] = share / BLENDERS_MOST
+        if name == "specular_roughness_anisotropy":  # of OpenPBR, whose roughness is no geometric mean
+            narrower = 2 * (1 - share) / (1 + (1 - share) ** 2)
+            typed["specular_roughness"] = values["specular_roughness"] * narrower**0.25
+    return typed
 
 
 BLENDER_FIELDS = {
@@ -92,6 +75,8 @@ BLENDER_FIELDS = {
     "specular_roughness": "Roughness",
     "specular_ior": "IOR",
     "specular_color": "Specular Tint",
+    "specular_anisotropy": "Anisotropic",
+    "specular_roughness_anisotropy": "Anisotropic",
     "coat_weight": "Coat Weight",
     "coat": "Coat Weight",
     "coat_roughness": "Coat Roughness",
@@ -99,95 +84,84 @@ BLENDER_FIELDS = {
 }
 
 
-@lru_cache(maxsize=4)
-def _plain(law: Model, index: str, grain: str = "") -> Node:
-    """A shader of base colour, metallic, roughness and one number for the lobe's height, without a coat."""
-    matt = {"specular": 0.0} if index == "specular" else {"eta": 1.0}
-    return Node(
-        law=law,
-        roughness="roughness",
-        metalness="metallic",
-        index=index,
-        weight="",
-        edge="",
-        coat="",
-        coat_roughness="",
-        coat_index="",
-        matt=matt,
-        grain=grain,
-    )
+def _as_named(*names: str, **spelt: str) -> dict[str, str]:
+    """Fields that are called as the law's parameters are, and those that are not."""
+    return {name: name for name in names} | spelt
 
 
 PLAIN = {"base_color": "Base Color", "metallic": "Metallic", "roughness": "Roughness"}
-OF_STANDARD = {
-    "base_color": "base_color",
-    "metalness": "metalness",
-    "specular": "specular",
-    "specular_color": "specular_color",
-    "specular_roughness": "specular_roughness",
-    "specular_ior": "specular_IOR",
-    "coat": "coat",
-    "coat_roughness": "coat_roughness",
-    "coat_ior": "coat_IOR",
-}
 PROGRAMS = (
     Program(
         "Blender",
         "Principled BSDF",
-        _blender,
+        lambda surface: _blenders(has_body(surface)),
         BLENDER_FIELDS,
-        "Standard Surface's in MaterialX, OpenPBR's for metals",
+        "Standard Surface in MaterialX, OpenPBR for metals",
         ("Base Color", "Metallic", "Roughness", "IOR"),
-        grain=_blenders_grain,
+        rotation=("Anisotropic Rotation", AS_TURNS),
+        retyped=_as_blender_types,
     ),
     Program(
         "Arnold, Maya, Houdini",
         "standard_surface",
         lambda _: _node("standard-surface"),
-        OF_STANDARD,
-        "Standard Surface's in MaterialX",
+        _as_named(
+            *("base_color", "metalness", "specular", "specular_color", "specular_roughness", "specular_anisotropy"),
+            *("coat", "coat_roughness"),
+            specular_ior="specular_IOR",
+            coat_ior="coat_IOR",
+        ),
+        "Standard Surface in MaterialX",
         ("base_color", "metalness", "specular_roughness", "specular_IOR"),
-        grain=_standard_grain,
+        rotation=("specular_rotation", -AS_TURNS),
     ),
     Program(
         "OpenPBR",
         "open_pbr_surface",
         lambda _: _node("openpbr"),
-        {
-            name: name
-            for name in (
-                "base_color",
-                "base_metalness",
-                "specular_weight",
-                "specular_color",
-                "specular_roughness",
-                "specular_ior",
-                "coat_weight",
-                "coat_roughness",
-                "coat_ior",
-            )
-        },
-        "OpenPBR's in MaterialX",
+        _as_named(
+            *("base_color", "base_metalness", "specular_weight", "specular_color", "specular_roughness"),
+            *("specular_roughness_anisotropy", "specular_ior", "coat_weight", "coat_roughness", "coat_ior"),
+        ),
+        "OpenPBR in MaterialX",
         ("base_color", "base_metalness", "specular_roughness", "specular_ior"),
         read_twice=True,
-        grain=_openpbrs_grain,
-        turned_by="geometry_tangent",
+        tangent="geometry_tangent",
     ),
     Program(
         "Unreal",
         "Default Lit",
-        lambda _: _plain(_engine_laws.UNREAL, "specular"),
-        PLAIN | {"specular": "Specular"},
-        "Unreal's",
+        lambda _: _unreal.NODE,
+        PLAIN
+        | {
+            "specular": "Specular",
+            "anisotropy": "Anisotropy",
+            "clear_coat": "Clear Coat",
+            "clear_coat_roughness": "Clear Coat Roughness",
+        },
+        "Unreal's shader files",
         ("Base Color", "Metallic", "Roughness", "Specular"),
+        coated="Clear Coat",
+        tangent="Tangent",
     ),
     Program(
         "Substance",
-        "metallic roughness",
-        lambda _: _plain(_engine_laws.UNREAL, "specular"),
-        PLAIN | {"specular": "Specular level"},
-        "Unreal's, whose numbers mean the same",
-        ("Base Color", "Metallic", "Roughness", "Specular level"),
+        "Painter's asm-metal-rough",
+        lambda _: _substance.NODE,
+        {
+            "base_color": "Base color",
+            "metallic": "Metallic",
+            "roughness": "Roughness",
+            "specular_level": "Specular level",
+            "specular_edge_color": "Specular edge color",
+            "anisotropy_level": "Anisotropy level",
+            "coat_opacity": "Coat opacity",
+            "coat_roughness": "Coat roughness",
+            "coat_ior": "Coat IOR",
+        },
+        "Painter's shader files",
+        ("Base color", "Metallic", "Roughness", "Specular level"),
+        rotation=("Anisotropy angle", AS_TURNS),
     ),
     Program(
         "glTF, three.js",
@@ -199,22 +173,24 @@ PROGRAMS = (
             "roughness": "roughness",
             "ior": "ior",
             "specular": "specular",
+            "anisotropy_strength": "anisotropyStrength",
             "clearcoat": "clearcoat",
             "clearcoat_roughness": "clearcoatRoughness",
         },
         "glTF's appendix B",
         ("baseColor", "metallic", "roughness", "ior"),
-        grain=_gltfs_grain,
+        rotation=("anisotropyRotation", 1.0),
     ),
     Program(
         "Mitsuba",
         "principled",
-        lambda _: _plain(_engine_laws.PRINCIPLED, "eta", "anisotropic"),
-        {"base_color": "base_color", "metallic": "metallic", "roughness": "roughness", "eta": "eta"},
+        lambda _: _principled.NODE,
+        _as_named(
+            *("base_color", "metallic", "roughness", "eta", "anisotropic", "clearcoat", "clearcoat_gloss"),
+        ),
         "Mitsuba's principled",
         ("base_color", "metallic", "roughness", "eta"),
-        grain=_mitsubas_grain,
-        turned_by="u",
+        tangent="u",
     ),
 )
 
@@ -223,8 +199,4 @@ def node_of(law: str) -> Node | None:
     """The shader of a law by its name; None where the law is no shader with a node."""
     if law in ("openpbr", "standard-surface", "gltf"):
         return _node(law)
-    plain = {
-        "unreal": (_engine_laws.UNREAL, "specular"),
-        "principled": (_engine_laws.PRINCIPLED, "eta", "anisotropic"),
-    }
-    return _plain(*plain[law]) if law in plain else None
+    return {each.law.name: each for each in (_unreal.NODE, _substance.NODE, _principled.NODE)}.get(law)

@@ -3,7 +3,8 @@
     Blender     Principled: a body under an index with MaterialX's albedo, F82 metals; alpha = roughness²
     Arnold      Standard Surface, as in MaterialX; Maya, Houdini and 3ds Max have it too
     OpenPBR     as MaterialX generates it; the other published reading is evaluated with the same numbers
-    Unreal      default lit: F0 = 0.08 specular; Substance has the same numbers and calls it specular level
+    Unreal      default lit, F0 = 0.08 specular; clear coat
+    Substance   Painter's standard material: the same base with other facets, its own grain and coat
     glTF        appendix B; three.js, web viewers
     Mitsuba     `principled`
     Radiance    `plastic` and `metal`
@@ -22,8 +23,8 @@ from ..errors import NoAnswer
 from ..models.surface import Surface
 from ..physics.colour import hex_of
 from ..physics.geometry import Geometry
-from . import _grained
-from ._choice import GOOD, Choice, with_the_coat
+from ._choice import GOOD, Choice, in_order_for
+from ._grained import axis_of, tangent_note
 from ._nodes import Node, choose_node, readings, what_it_costs
 from ._programs import PROGRAMS, Program
 from ._shown import Shown, off_the_measurement
@@ -77,9 +78,10 @@ def cards(
     (samples, channels) there, if there is a measurement: then each error against it is given besides.
     """
     shown = [each if isinstance(each, ColouredSurface) else coloured(each) for each in surfaces]
-    tried, chosen = with_the_coat(shown), _Chosen(geom)
+    chosen = _Chosen(geom)
+    tried = in_order_for(shown, "ggx")
     found = [_best(partial(_card, program, chosen), tried) for program in PROGRAMS]
-    found.append(_best(partial(_of_radiance, geom), tried))
+    found.append(_best(partial(_of_radiance, geom), in_order_for(shown)))
     if measured is None:
         return found
     matrix = shown[0].colour.matrix
@@ -97,27 +99,20 @@ def _best(make: Callable[[ColouredSurface], Card], surfaces: Sequence[ColouredSu
 
 def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
     node = program.node(surface)
-    if surface.has_mirror and not node.coat and surface.term_names not in (["mirror"], ["lambertian", "mirror"]):
-        why = "it has a mirror beside a lobe, and the shader no coat"
-        return Card(program.name, program.shader, {}, None, (why,), program.formula)
-    if surface.has_mirror and node.law.mirror is None:
-        return Card(program.name, program.shader, {}, None, ("it has a mirror, and roughness 0 is none there",))
     choice = chosen.of(node, surface)
     numbers, hexes = _typed(program, node, choice)
-    notes = readings(node, choice, surface, chosen.geom) if program.read_twice else ()
-    if node.grain and np.any(choice.values.get(node.grain, 0.0)) and program.grain is not None:
-        numbers |= program.grain(choice.values)
-        notes += _grained.tangent_note(_grained.axis_of(surface) or 0.0, program.turned_by) if program.turned_by else ()
+    streak = _streak(program, node, choice)
+    coated = program.coated and np.any(choice.values[node.coat])
     return Card(
         program=program.name,
-        shader=program.shader,
+        shader=program.coated if coated else program.shader,
         numbers=numbers,
         rms_ln=choice.rms_ln,
         cannot=what_it_costs(node, surface, choice),
         formula=program.formula,
         hexes=hexes,
         model=surface.model.name,
-        notes=notes,
+        notes=streak + (readings(node, choice, surface, chosen.geom) if program.read_twice else ()),
         shown=choice.shown(surface),
     )
 
@@ -126,10 +121,11 @@ def _typed(program: Program, node: Node, choice: Choice) -> tuple[dict[str, floa
     """Label -> number or colour, and label -> hex of colours; what keeps the shader's default is left out."""
     numbers: dict[str, float | tuple[float, ...]] = {}
     hexes = {}
+    values = program.retyped(choice.values)
     for name, label in program.fields.items():
-        if name not in choice.values:
+        if name not in values:
             continue
-        value, parameter = np.ravel(choice.values[name]), node.law.parameter(name)
+        value, parameter = np.ravel(values[name]), node.law.parameter(name)
         if label not in program.always and np.all(value == parameter.default):
             continue
         if parameter.per_channel:
@@ -138,11 +134,29 @@ def _typed(program: Program, node: Node, choice: Choice) -> tuple[dict[str, floa
             hexes[label] = hex_of(rgb)
         else:
             numbers[label] = float(value[0])
+    if program.rotation and np.any(choice.values[node.grain]):
+        label, of_a_radian = program.rotation
+        turned = float(np.remainder(np.sign(of_a_radian) * np.ravel(choice.values["axis"])[0], np.pi))
+        numbers[label] = turned * abs(of_a_radian)
     return numbers, hexes
 
 
+def _streak(program: Program, node: Node, choice: Choice) -> tuple[str, ...]:
+    """Where the mesh must lie for a grain to lie as it does on the surface."""
+    if not np.any(choice.values[node.grain]):
+        return ()
+    if program.rotation:
+        return (f"the rotation counts from azimuth 0 of the sample, where {program.tangent} lies",)
+    return tangent_note(float(np.ravel(choice.values["axis"])[0]), program.tangent)
+
+
+def _radiances_u(surface: ColouredSurface) -> tuple[str, ...]:
+    axis = axis_of(surface)
+    return () if axis is None else tangent_note(axis, "u")
+
+
 def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
-    name, shader, formula = "Radiance", "plastic or metal", "Radiance's"
+    name, shader, formula = "Radiance", "plastic or metal", "Radiance's materials"
     try:
         statement = catalog.load("exporters", "radiance").export(surface, geom).statement
     except NoAnswer as refused:
@@ -155,8 +169,8 @@ def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
     }
     widths = {"alpha_x": "roughness along u", "alpha_y": "roughness across u"}
     widths = widths if "alpha_x" in values else {"roughness": "roughness"}
-    numbers |= {label: float(np.ravel(values.get(name, 0.0))[0]) for name, label in widths.items()}
-    axis = _grained.axis_of(surface)
+    for key, label in widths.items():
+        numbers[label] = float(np.ravel(values.get(key, 0.0))[0])
     return Card(
         program=name,
         shader=shader,
@@ -165,7 +179,7 @@ def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
         cannot=statement.lost,
         formula=formula,
         hexes={"RGB": hex_of(rgb)},
+        notes=_radiances_u(surface),
         model=surface.model.name,
-        notes=() if axis is None else _grained.tangent_note(axis, "u"),
         shown=statement.shown,
     )

@@ -5,7 +5,7 @@ names or mean other numbers by them; `SPELLINGS` reads and writes these:
 
     blender, arnold     standard-surface
     three.js            gltf
-    unreal, substance   Unreal's default lit;   principled: Mitsuba's
+    unreal, substance   Unreal's default lit and clear coat, Painter's standard material;   principled: Mitsuba's
     pbrt                a conductor or a body under facets, alpha = √roughness
     glossiness          diffuse, specular and glossiness: glTF's lobe with roughness = 1 - glossiness
     radiance            plastic: albedo (1 - specularity) under Ward's lobe as Radiance bounds it
@@ -25,7 +25,7 @@ from ..models import get, made_of
 from ..models.model import Composite, Model
 from ..models.surface import Surface
 from ..physics.fresnel import f0, index_from_f0
-from . import _engine_laws
+from . import _principled, _substance, _unreal
 from ._law_fit import nearest_of_law
 from ._nodes import choose_node, what_it_costs
 from ._programs import node_of
@@ -62,7 +62,7 @@ class Converted:
     lost: tuple[str, ...]
 
 
-ENGINES: Mapping[str, Model] = {"unreal": _engine_laws.UNREAL, "principled": _engine_laws.PRINCIPLED}
+ENGINES: Mapping[str, Model] = {each.name: each for each in (_unreal.LAW, _substance.LAW, _principled.LAW)}
 
 
 def _mean(value) -> float:
@@ -117,7 +117,6 @@ SPELLINGS = {
     "blender": Spelling("standard-surface", ()),
     "arnold": Spelling("standard-surface", ()),
     "three.js": Spelling("gltf", ()),
-    "substance": Spelling("unreal", ()),
     "pbrt": Spelling("lambertian+ggx", ("reflectance", "roughness", "eta", "k"), _read_pbrt, _write_pbrt),
     "glossiness": Spelling("gltf", ("diffuse", "specular", "glossiness"), _read_glossiness, _write_glossiness),
     "radiance": Spelling("lambertian+ward-gmd", ("RGB", "specularity", "roughness"), _read_radiance, _write_radiance),
@@ -155,13 +154,11 @@ def read(name: str, given: Mapping[str, Sequence[float]]) -> ColouredSurface:
 def convert(surface: ColouredSurface, to: str) -> Converted:
     """The numbers of another shader that come nearest to a surface.
 
-    Raises InputError for an unknown shader, NoAnswer for a mirror where the shader has none.
+    Raises InputError for an unknown shader, NoAnswer for a mirror where the law has none.
     """
     spelt = spelling(to)
     node = node_of(spelt.law)
     if node is not None:
-        if surface.has_mirror and node.law.mirror is None:
-            raise NoAnswer(f"{to} has no mirror, and the surface is one")
         choice = choose_node(node, surface, None)
         lost, values = what_it_costs(node, surface, choice), choice.values
         if spelt.written_as_it_stands:

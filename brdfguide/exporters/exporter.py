@@ -138,6 +138,7 @@ class Exporter:
     named: bool = True  # its file holds the surface's name
     grained: bool = False  # whether it holds one grain
     averages: bool = False  # whether a surface with a grain becomes its mean over all turns, which is said
+    lobe: str = ""  # the law of models that its only lobe is; "": it has several, or any
 
     @property
     def name(self) -> str:

@@ -70,4 +70,6 @@ def _extensions(values, metal: bool) -> dict:
     return found
 
 
-EXPORTER = Exporter(__name__, ".gltf", "glTF 2.0 metallic-roughness material with its extensions", export, grained=True)
+EXPORTER = Exporter(
+    __name__, ".gltf", "glTF 2.0 metallic-roughness material with its extensions", export, grained=True, lobe="ggx"
+)

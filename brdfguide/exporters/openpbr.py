@@ -52,4 +52,4 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
     return Export(materialx_document(surface, statement, nodes), statement)
 
 
-EXPORTER = Exporter(__name__, ".mtlx", "MaterialX open_pbr_surface", export, grained=True)
+EXPORTER = Exporter(__name__, ".mtlx", "MaterialX open_pbr_surface", export, grained=True, lobe="ggx")

@@ -53,4 +53,4 @@ def _clockwise(axis) -> float:
     return float(np.remainder(-np.ravel(axis)[0], np.pi) / (2 * np.pi))
 
 
-EXPORTER = Exporter(__name__, ".mtlx", "MaterialX standard_surface", export, grained=True)
+EXPORTER = Exporter(__name__, ".mtlx", "MaterialX standard_surface", export, grained=True, lobe="ggx")

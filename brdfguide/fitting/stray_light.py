@@ -16,7 +16,7 @@ from ..physics.height_spectrum import KCorrelation, SurfaceSpectrum, surface_hei
 from .diagnostics import derived_error
 from .ranked import Ranking, Row
 
-WAVE_LAWS = "wave optics"  # the family of those
+WAVE_LAWS, STRAY_LIGHT_LAWS = "wave optics", "polished optics"  # the families of those
 INCIDENCES = 3  # at most, at which light is added up
 SIGMAS = 1.96  # standard errors of an interval of 95 %
 AGREE = 0.2  # by which two heights of one surface may differ (ours)
@@ -201,5 +201,4 @@ def _is_abc(row: Row) -> bool:
 
 def _polished(row: Row) -> Term | None:
     """The term of polished optics, if the row has one."""
-    asks = ((term, term.model.candidacy) for term in row.fit.model.terms)
-    return next((term for term, each in asks if each is not None and each.polished), None)
+    return next((term for term in row.fit.model.terms if term.model.family == STRAY_LIGHT_LAWS), None)

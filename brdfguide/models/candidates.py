@@ -77,10 +77,11 @@ def with_grain(model: Composite, grain: Grained) -> Composite:
 
 
 def of_polish(beam: bool = False) -> tuple[Composite, ...]:
-    """The laws of polished optics: alone, on a body, and with a mirror where its `beam` was seen."""
-    laws = [model.name for model, asks in _asking() if asks.polished]
-    patterns = ["{}", "lambertian+{}"] + (["{}+mirror"] if beam else [])
-    return tuple(models.get(pattern.format(law)) for pattern in patterns for law in laws)
+    """The laws of polished optics: alone, on a body, and with a mirror where its `beam` was seen and they have none."""
+    laws = [model for model, asks in _asking() if asks.polished]
+    names = [pattern.format(law.name) for pattern in ("{}", "lambertian+{}") for law in laws]
+    names += [f"{law.name}+mirror" for law in laws if beam and law.mirror is None]
+    return tuple(models.get(name) for name in names)
 
 
 def _both_kinds(name: str, kind: str | None) -> list[Composite]:

@@ -22,7 +22,7 @@ from ..physics.geometry import Geometry
 from ._grain import AXIS, BY_RATIO, LENGTH_ACROSS, RATIO, SLOPE_ACROSS
 from ._series_cells import ln_series
 from ._shadows import height_factor
-from .facts import Formula
+from .facts import Candidacy, Formula
 from .model import Extreme, Model, Parameter, Pin, at
 
 
@@ -147,6 +147,7 @@ MODEL = Model(
             "tau_waves": sigma / slope / wavelength,
         },
     ),
+    candidacy=Candidacy(133, polished=True),
     grain=BY_RATIO,
     beyond_facets=lambda **_: "wave effects, the lobe's change of shape with angle and wavelength, become one shape",
 )

@@ -160,6 +160,11 @@ def profile_height(spectrum: Spectrum, low: float | None = None, high: float | N
     return float(np.sqrt(_over_band(spectrum, low, high, spectrum.of_profile)))
 
 
+def surface_gradient(spectrum: SurfaceSpectrum, low: float | None = None, high: float | None = None) -> float:
+    """Rms gradient of a surface between two cut-offs [1/µm]: Sdq, sqrt ∫ (2πν)² 2πν S2 dν."""
+    return float(np.sqrt(_over_band(spectrum, low, high, lambda nu: (2 * pi * nu) ** 3 * spectrum.of_surface(nu))))
+
+
 def profile_slope(spectrum: Spectrum, low: float | None = None, high: float | None = None) -> float:
     """Rms slope of a profile between two cut-offs [1/µm]: Rdq, sqrt ∫ (2πν)² S1 dν."""
     return float(np.sqrt(_over_band(spectrum, low, high, lambda nu: (2 * pi * nu) ** 2 * spectrum.of_profile(nu))))

@@ -64,7 +64,7 @@ BAD = {
     ),
     "empty stylus": (
         "stylus: {cutoff_um: 80}",
-        "x:1:9: 'stylus' needs a height (sigma_um, rq_um, sq_um, ra_um, sa_um), tau_um or rsm_um",
+        "x:1:9: 'stylus' needs a height (sigma_um, rq_um, sq_um, ra_um, sa_um), tau_um, rsm_um or a spectrum",
     ),
     "emergence": (
         "emergence_angle_deg: sometimes",
@@ -77,7 +77,7 @@ BAD = {
     "group as a word": (
         "stylus: fine",
         "x:1:9: 'stylus' is 'fine'; wanted lines of `key: value` with sigma_um, rq_um, sq_um, ra_um, sa_um, tau_um, "
-        "rsm_um, rdq, sdq, cutoff_um, shortest_um",
+        "rsm_um, rdq, sdq, cutoff_um, shortest_um, spectrum",
     ),
     "nothing observed": ("name: thing", None),
     "source of nothing": (

@@ -2,11 +2,15 @@
 
 from math import pi, sqrt
 
+import numpy as np
 import pytest
 
 from brdfguide.advice import profile
-from brdfguide.advice.material import parse_material
+from brdfguide.advice.material import parse_material, read_material
 from brdfguide.errors import InputError
+from brdfguide.models import term
+from brdfguide.physics.geometry import in_plane
+from brdfguide.physics.height_spectrum import KCorrelation, profile_height, profile_slope, surface_height
 
 from ..cli.test_advice import answer, run
 
@@ -63,3 +67,78 @@ def test_what_is_refused(text, says):
     with pytest.raises(InputError) as error:
         parse_material(text)
     assert says in str(error.value) and "tau_um'?" not in str(error.value)
+
+
+POLISH = KCorrelation(4e-5, 60.0, 1.8)  # rms height 1.1 nm, 0.91 nm of it in waves of 1 to 100 µm
+
+
+def psd(path, low: float, high: float, *, area: bool = False, factor: float = 1.0) -> None:
+    """The spectrum's file as an instrument writes it, heights `factor` times as high."""
+    nu = np.geomspace(low, high, 40)
+    density, unit = (POLISH.of_surface(nu), "um^4") if area else (POLISH.of_profile(nu), "um^3")
+    rows = [f"{f:.8g},{factor**2 * s:.8g}" for f, s in zip(nu, density, strict=True)]
+    path.write_text(f"f (1/um), S ({unit})\n" + "\n".join(rows))
+
+
+def test_a_spectrum_in_a_description_is_a_height_and_a_length(tmp_path):
+    psd(tmp_path / "psd.csv", 0.01, 1.0)
+    (tmp_path / "mirror.yaml").write_text("kind: metal\nstylus: {spectrum: psd.csv}\n")
+    mirror = read_material(tmp_path / "mirror.yaml")
+    rq, rdq = profile_height(POLISH, 0.01, 1.0), profile_slope(POLISH, 0.01, 1.0)
+    assert mirror.sigma == pytest.approx(rq, rel=1e-3)
+    assert mirror.tau == pytest.approx(sqrt(2) * rq / rdq, rel=1e-3)
+    assert mirror.cutoff == pytest.approx(100.0) and profile.band_of(mirror.given["stylus"])[1] == pytest.approx(1.0)
+    said = run("recommend", str(tmp_path / "mirror.yaml"), "--full", "--no-timing").stdout
+    assert "of the spectrum in psd.csv, waves of 1 to 100 µm" in " ".join(said.split())
+    assert "unused" not in said
+
+
+def test_an_areas_spectrum_is_its_own_height(tmp_path):
+    psd(tmp_path / "psd.csv", 0.01, 1.0, area=True)
+    (tmp_path / "mirror.yaml").write_text("kind: metal\nstylus: {spectrum: psd.csv}\n")
+    assert read_material(tmp_path / "mirror.yaml").sigma == pytest.approx(surface_height(POLISH, 0.01, 1.0), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "text, says", [(None, "there is no such file"), ("secret: 1\n", "is none; wanted two columns")]
+)
+def test_a_file_that_is_no_spectrum_is_named_and_not_quoted(tmp_path, text, says):
+    if text is not None:
+        (tmp_path / "psd.csv").write_text(text)
+    (tmp_path / "mirror.yaml").write_text("kind: metal\nstylus: {spectrum: psd.csv}\n")
+    with pytest.raises(InputError) as error:
+        read_material(tmp_path / "mirror.yaml")
+    assert says in str(error.value) and "secret" not in str(error.value)
+
+
+def scan(path) -> None:
+    """633 nm at 5 degrees, 0.3 to 74 degrees from the mirror direction."""
+    off = np.concatenate((np.geomspace(0.3, 10, 25), np.arange(12.0, 75.0, 3.0)))
+    angles = np.sort(np.concatenate((5 + off, 5 - off)))
+    values = term("abc")(in_plane(5.0, angles, 0.633), a=POLISH.a, b=POLISH.b, c=POLISH.c, f0=1.0)
+    rows = [f"5,{angle:.6f},{value:.8g}" for angle, value in zip(angles, values.ravel(), strict=True)]
+    path.write_text("# 633 nm\nAOI,theta_s,BSDF (1/sr)\n" + "\n".join(rows) + "\n")
+
+
+@pytest.mark.parametrize(
+    "stylus, disagrees",
+    [
+        ("rq_um: 0.0009, shortest_um: 1, cutoff_um: 100", False),
+        ("rq_um: 0.003, shortest_um: 1, cutoff_um: 100", True),
+        ("rq_um: 0.0003, shortest_um: 3000, cutoff_um: 30000", False),  # waves that no angle of the scan sees
+        ("spectrum: psd.csv", False),
+        ("spectrum: high.csv", True),
+    ],
+)
+def test_a_height_is_compared_with_the_lights_over_the_waves_that_both_see(tmp_path, stylus, disagrees):
+    scan(tmp_path / "scan.csv")
+    psd(tmp_path / "psd.csv", 1e-3, 1.0)
+    psd(tmp_path / "high.csv", 1e-3, 1.0, factor=3.0)
+    (tmp_path / "mirror.yaml").write_text(f"kind: metal\nmeasurements: [scan.csv]\nstylus: {{{stylus}}}\n")
+    found = answer("recommend", str(tmp_path / "mirror.yaml"), "-m", "abc", "--no-timing")
+    said = [each for each in found["disagreements"] if each["code"] == "height-disagrees"]
+    assert bool(said) == disagrees
+    if said:
+        assert "both in waves of" in said[0]["text"]
+        ratio = said[0]["numbers"]["stylus_um"] / said[0]["numbers"]["fitted_um"]
+        assert ratio == pytest.approx(3.0 if "spectrum" in stylus else 0.003 / 0.000912, rel=0.03)

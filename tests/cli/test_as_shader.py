@@ -31,7 +31,10 @@ def test_the_bound_on_an_exports_error_counts_against_the_measurement(tmp_path):
 
 def test_a_described_metal_gets_the_candidate_that_the_shader_holds():
     found = answer("recommend", "copper", "--as", "standard-surface", "--no-timing")
-    assert found["recommended"] != found["as"]["model"] and found["as"]["rms_ln"] < 0.05
+    first, *rest = (each["model"] for each in found["candidates"])
+    assert first == found["as"]["model"] == "ggx" and "ward" in rest, "the guidelines' first is ward, which none holds"
+    assert "without --as ward comes first" in found["candidates"][0]["why"]
+    assert found["recommended"] == found["as"]["model"] and found["as"]["rms_ln"] < 0.05
     assert found["as"]["written"]["metalness"] == 1.0
 
 

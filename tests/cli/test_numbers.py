@@ -21,10 +21,14 @@ def test_a_described_metal_comes_with_what_to_type():
     assert by_program["Blender"]["measured_rms_ln"] is None
 
 
-def test_a_line_for_each_program_ends_with_how_far_off_it_is():
+def test_a_row_for_each_program_begins_with_how_far_off_it_is_and_fits_a_terminal():
     text = run("recommend", "copper", "-m", "ggx", "--numbers", "--no-timing").stdout
-    [line] = [line for line in text.splitlines() if line.startswith("  Unreal")]
-    assert re.search(r"Base Color #[0-9a-f]{6}, Metallic 1, Roughness 0\.\d+, Specular 0\.5 \([\d.]+ % off\)", line)
+    said = " ".join(text.split())
+    assert re.search(
+        r"Unreal [\d.]+ % Base Color #[0-9a-f]{6}, Metallic 1, Roughness 0\.\d+, Specular 0\.5 Substance", said
+    )
+    block = text[text.index("numbers to type") :].splitlines()
+    assert max(map(len, block)) <= 80 and not any(line.strip().startswith("#") for line in block)
 
 
 def test_after_a_fit_the_error_against_the_measurement_stands_beside(tmp_path):

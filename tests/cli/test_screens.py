@@ -31,7 +31,7 @@ SCREENS = {
     "index gold": (80,),
     "models": (80,),
     "models he-torrance": (80,),
-    "numbers lambertian+ggx": (80,),
+    "numbers lambertian+ggx": (50, 80),
     "scatter --ra 12nm": (80,),
     "check lambertian": (80,),
     "export": (80,),

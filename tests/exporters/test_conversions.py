@@ -24,7 +24,8 @@ def test_what_programs_share_comes_through():
 
 
 @pytest.mark.parametrize(
-    "to, name", [("openpbr", "specular_roughness"), ("unreal", "roughness"), ("disney", "roughness")]
+    "to, name",
+    [("openpbr", "specular_roughness"), ("unreal", "roughness"), ("substance", "roughness"), ("disney", "roughness")],
 )
 def test_a_metal_stays_a_metal_at_about_its_roughness(to, name):
     found = converted("gltf", to, base_color=[0.9, 0.6, 0.3], roughness=0.3, metallic=1)
@@ -77,8 +78,9 @@ def test_a_blinn_exponent_costs_what_its_shape_costs():
 def test_a_polished_body_is_polished_there_too():
     found = converted("gltf", "openpbr", base_color=0.6, roughness=0)
     assert found.numbers["specular_roughness"] == 0.0 and "coat_weight" not in found.numbers
-    with pytest.raises(NoAnswer, match="has no mirror"):
-        converted("gltf", "principled", roughness=0)
+    assert converted("gltf", "principled", roughness=0).numbers["roughness"] == 0.0
+    with pytest.raises(NoAnswer, match="finite lobes"):
+        converted("gltf", "disney", roughness=0)
 
 
 @pytest.mark.parametrize(

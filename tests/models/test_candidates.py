@@ -69,3 +69,12 @@ def test_lobes_of_one_law_share_its_index_and_have_heights_of_their_own():
 def test_of_two_lobes_of_a_metal_the_first_is_as_high_as_its_reflectance():
     metal = candidates.as_metal(models.get("ggx:2"))
     assert metal.fixed == {"ggx.1.n": 1.0} and set(metal.free) == {"ggx.1.k", "ggx.2.scale"}
+
+
+def test_polished_data_bring_the_laws_of_stray_light_and_the_wave_law_beside_them():
+    plain = {each.name for each in candidates.of_kind("metal")}
+    added = {each.name for each in candidates.of_kind("metal", polished=True, beam=True)} - plain
+    laws = {"abg", "harvey-shack", "abc"}
+    assert added == laws | {"stam", "lambertian+stam"} | {f"lambertian+{law}" for law in laws} | {
+        f"{law}+mirror" for law in laws
+    }, "stam has a mirror beam of its own"

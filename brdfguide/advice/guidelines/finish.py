@@ -34,7 +34,7 @@ def slopes_of_stylus(material: Material) -> Advice | None:
         f"{sqrt(pi) * slope:.3g}, alpha = {2 * slope:.3g}"
     )
     band = "no cut-off given; light sees the finest, steepest scale, which a long cut-off hides"
-    return Advice(says, f"stylus; {f'cut-off {material.cutoff:g} µm' if material.cutoff else band}")
+    return Advice(says, f"stylus; {f'cut-off {material.cutoff:.4g} µm' if material.cutoff else band}")
 
 
 @rule("5.2")
