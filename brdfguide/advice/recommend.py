@@ -12,6 +12,7 @@ import numpy as np
 from .. import models as catalogue
 from ..models import Composite, cost
 from ..models.candidates import KINDS, as_metal, of_kind
+from ..models.looks import turns
 from ..models.surface import Surface
 from ..models.visible_change import begins_to_show
 from ..physics import gloss
@@ -29,6 +30,9 @@ EFFECTS = {
     "contradicts": "the rest says otherwise",
     "none": "nothing here depends on it",
 }
+
+
+GLOSS_TURNS_DEG = (0.0, 45.0, 90.0, 135.0)  # azimuths under which a surface with a grain is read
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,12 +212,18 @@ def _candidate(name: str, why: str, by: tuple[str, ...], filled: Material) -> Pr
 
 
 def predicted_gloss(surface: Surface) -> dict[int, float]:
-    """Gloss units at 20, 60 and 85 degrees, in the middle channel."""
+    """Gloss units at 20, 60 and 85 degrees, in the middle channel; of a grain the mean over four turns."""
     middle, out = surface.middle, {}
+    around = GLOSS_TURNS_DEG if turns(surface) else (0.0,)
     for angle in gloss.ANGLES:
-        mirror = float(middle.mirror(in_plane([[angle]], angle))[0, 0])
-        out[angle] = float(gloss.units(middle.brdf, angle, mirror, quick=True)[0])
+        out[angle] = float(np.mean([_units_under(middle, angle, turn) for turn in around]))
     return out
+
+
+def _units_under(surface: Surface, angle: int, azimuth_deg: float) -> float:
+    """Gloss units with the light at an azimuth of the sample."""
+    mirror = float(surface.mirror(in_plane([[angle]], angle).at_azimuth(azimuth_deg))[0, 0])
+    return float(gloss.units(lambda geom: surface.brdf(geom.at_azimuth(azimuth_deg)), angle, mirror, quick=True)[0])
 
 
 @lru_cache(maxsize=64)

@@ -13,7 +13,7 @@ from brdfguide.exporters import _grained, cards, conversions
 from brdfguide.exporters.exporter import ColouredSurface
 from brdfguide.physics.geometry import Geometry, rows
 
-TABLES = ("rgl", "rgl-spectral")  # hold the axis by themselves
+TABLES = ("rgl", "rgl-spectral", "zemax")  # hold the axis by themselves
 TARGETS = [name for name in exporters.names() if exporters.get(name).grained and name not in TABLES]
 OFF = {"gltf-pbr": 0.12}  # rms ln of a shader that masks both directions with one width
 WIDE, NARROW, AXIS = 0.3, 0.075, 30.0
@@ -140,6 +140,19 @@ def test_mitsuba_reads_the_turned_table_as_we_do(turned_table, tmp_path):
         got.append(bsdf.eval(mitsuba.BSDFContext(), si, out)[0] / out[2])
     geom = rows(Geometry.from_degrees(theta_i, phi_i, theta_r, phi_r))
     np.testing.assert_allclose(got, turned_table.statement.shown(geom)[:, 0], rtol=1e-4)
+
+
+def test_zemax_has_a_table_for_each_rotation_and_gives_the_grain_back(tmp_path):
+    made = exporters.export("zemax", brushed(alpha_x=0.35, alpha_y=0.15))
+    assert "ASymmetrical4D" in made.content and made.statement.rms_ln < 0.05
+    np.testing.assert_allclose(streak(made.statement.shown), streak(brushed(alpha_x=0.35, alpha_y=0.15).rgb), rtol=0.05)
+    path = tmp_path / "grain.bsdf"
+    path.write_text(made.content)
+    found = formats.read(path)
+    assert len(np.unique(np.round(np.remainder(found.geom.phi_i_deg, 360), 2))) == 24
+    some = found[np.arange(7, len(found.geom), 997)]
+    some = some[some.geom.theta_r_deg[:, 0] < 85]
+    np.testing.assert_allclose(some.brdf[:, 0], brushed(alpha_x=0.35, alpha_y=0.15).rgb(some.geom)[:, 0], rtol=1e-4)
 
 
 def upward(theta_deg, phi_deg):

@@ -5,6 +5,8 @@ import pytest
 
 from brdfguide.advice import recommend
 from brdfguide.advice.material import observed, said_to_be_grained
+from brdfguide.advice.recommend import predicted_gloss
+from brdfguide.models.surface import Surface
 
 BRUSHED = {"composition": "stainless steel", "appearance": "metal", "texture": "brushed"}
 
@@ -55,3 +57,13 @@ def test_a_streak_that_brushing_cannot_make_is_flagged(streak):
 def test_brushed_yet_unchanged_when_turned_still_conflicts():
     found = recommend.recommend(observed(BRUSHED | {"changes_when_turned": False}))
     assert any(each.conflict and "unchanged as it turns" in each.says for each in found.advice)
+
+
+def test_gloss_of_a_grain_is_the_mean_over_four_turns():
+    surface = Surface.named("ggx-aniso", {"alpha_x": 0.2, "alpha_y": 0.05, "axis": 0.0, "n": 1.5})
+    turned = [
+        predicted_gloss(Surface.named("ggx-aniso", {"alpha_x": 0.2, "alpha_y": 0.05, "axis": axis, "n": 1.5}))[60]
+        for axis in (0.0, 45.0, 90.0)
+    ]
+    assert turned == pytest.approx([turned[0]] * 3, rel=1e-9)
+    assert predicted_gloss(surface)[60] < predicted_gloss(Surface.named("ggx", {"alpha": 0.05, "n": 1.5}))[60]
