@@ -2,19 +2,23 @@
 pages that are made of tables are those of today.
 """
 
+import io
 import json
 import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from PIL import Image
 from typer.main import get_command
 
-from brdfguide import catalog
-from brdfguide.cli import _pages
+from brdfguide import catalog, models
+from brdfguide.advice import library
+from brdfguide.cli import _pages, _reference_pictures
 from brdfguide.cli._app import build
 
-from . import transcripts
+from . import commands, transcripts
 from .conftest import ROOT
 
 COMMAND = re.compile(r"\bbrdfguide ((?:[a-z]+|--[a-z]+)\b[^`|>;&\n]*)")
@@ -75,6 +79,27 @@ def test_the_reference_pages_are_complete():
     assert all(f"\n## {name}\n" in laws for name in catalog.names("models"))
 
 
+def test_every_law_and_every_material_has_its_picture():
+    laws, materials = (
+        {path.stem for path in (ROOT / "docs" / "pictures" / kind).glob("*.png")} for kind in ("laws", "materials")
+    )
+    assert (
+        laws == set(models.names()) - _reference_pictures.UNDRAWN
+        and materials == set(library.library_names()) - _reference_pictures.UNDRAWN
+    )
+
+
+@pytest.mark.parametrize("folder, name", [("laws", "ward"), ("laws", "lafortune"), ("materials", "banana")])
+def test_a_picture_of_the_reference_is_what_would_be_drawn_today(folder, name):
+    """Mean difference of the pixels, since another matplotlib sets letters otherwise."""
+    draw = _reference_pictures.law_picture if folder == "laws" else _reference_pictures.material_picture
+    kept = Image.open(ROOT / "docs" / "pictures" / folder / f"{name}.png").convert("RGB")
+    today = Image.open(io.BytesIO(draw(name))).convert("RGB")
+    assert kept.size == today.size
+    apart = np.abs(np.asarray(kept, float) - np.asarray(today, float))
+    assert np.mean(apart) < 4  # of 255; two laws are 8 to 10 apart
+
+
 def test_the_site_is_built(tmp_path):
     pytest.importorskip("mkdocs")
     command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)]
@@ -94,3 +119,15 @@ def test_the_notebook_does_what_it_says(tmp_path, monkeypatch):
     for cell in source:
         exec(compile(cell, "notebook.ipynb", "exec"), names)
     assert names["answer"].document["trustworthy"] and (tmp_path / "mug.mtlx").stat().st_size > 100
+
+
+@pytest.mark.parametrize("page", commands.NAMED, ids=lambda page: page.name)
+def test_a_command_that_is_named_without_what_it_prints_runs(page, package, tmp_path):
+    """In a folder with the examples and a few files of a reader's own; status 0, and nothing that looks like ours."""
+    bin_ = str(package.bin)
+    transcripts.run("brdfguide examples examples", tmp_path, bin_)
+    commands.furnished(tmp_path, tmp_path / "examples")
+    for command in commands.commands(page):
+        done = transcripts.run(command, tmp_path, bin_)
+        assert done.returncode == 0 and "Traceback" not in done.stderr, f"{command}\n{done.stderr}"
+        assert done.stdout or done.stderr or re.search(r" -o | -q\b| > ", command), command

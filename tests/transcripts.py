@@ -65,7 +65,7 @@ def run(command: str, folder: Path, path: str) -> subprocess.CompletedProcess:
     """A shell line with `brdfguide` found on the path."""
     environment = {**os.environ, "PATH": f"{path}{os.pathsep}{os.environ['PATH']}", "PYTHONUTF8": "1"}
     return subprocess.run(
-        ["sh", "-c", command], cwd=folder, env=environment, capture_output=True, text=True, timeout=300
+        ["sh", "-c", command], cwd=folder, env=environment, capture_output=True, text=True, timeout=1800
     )
 
 

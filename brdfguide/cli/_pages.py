@@ -14,6 +14,7 @@ from ..report.documents.catalogue import model_entry
 from ..report.documents.explained import rule_entry
 from ._app import build
 from ._help import GROUPS, first_sentence
+from ._reference_pictures import LAWS, MATERIALS, UNDRAWN, write_pictures
 
 MADE = "This page is made of the program's own tables by `python -m brdfguide.cli._pages docs`; edit those."
 
@@ -62,6 +63,7 @@ def models_page() -> str:
         said = [
             f"## {name}",
             entry["summary"][:1].upper() + entry["summary"][1:] + ".",
+            *_picture(LAWS, name, f"{name} with its default parameters, at three incidences"),
             entry["law"],
             _table(header, rows),
         ]
@@ -108,9 +110,19 @@ def materials_page() -> str:
     rows = []
     for name in library.library_names():
         given = yaml.safe_load(library.path(name).read_text(encoding="utf-8"))
-        rows.append((f"`{name}`", given.get("about", ""), ", ".join(key for key in given if key not in HEADS)))
-    about = "`brdfguide materials NAME` shows one with the source of every number."
-    return _page("Materials", about, _table(("material", "what it is", "what is said of it"), rows))
+        said = ", ".join(key for key in given if key not in HEADS)
+        rows.append(("".join(_picture(MATERIALS, name, name)), f"`{name}`", given.get("about", ""), said))
+    about = (
+        "`brdfguide materials NAME` shows one with the source of every number. A ball is drawn with the model that is "
+        "recommended first, in the light of `brdfguide preview`; where only the finish is told and no colour, the body "
+        "is black."
+    )
+    return _page("Materials", about, _table(("", "material", "what it is", "what is said of it"), rows))
+
+
+def _picture(folder: str, name: str, words: str) -> list[str]:
+    """The line that shows a picture of `_reference_pictures`; none for what has none."""
+    return [f"![{words}](../pictures/{folder}/{name}.png)"] if name not in UNDRAWN else []
 
 
 HEADS = ("name", "about", "sources")
@@ -175,11 +187,12 @@ def reference_page(name: str) -> str:
 
 
 def write_reference(folder: Path) -> None:
-    """Writes every page below a folder."""
+    """Writes every page below a folder, and draws the pictures that are not there yet."""
     for name in NAMES:
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(reference_page(name), encoding="utf-8")
+    write_pictures(folder / "pictures", missing=True)
 
 
 if __name__ == "__main__":
