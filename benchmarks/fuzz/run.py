@@ -1,7 +1,7 @@
 """Files, documents, names and options that no honest person makes, for as long as you like:
 
     python benchmarks/fuzz/run.py --minutes 60 --seed 1
-    python benchmarks/fuzz/run.py --cases 300 --seed 1
+    python benchmarks/fuzz/run.py --cases 60 --seed 1
 
 The first tries what there is time for, the second the same cases on any machine, however long they take.
 
