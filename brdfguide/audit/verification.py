@@ -9,7 +9,7 @@ digest holds it.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from mpmath import cos, erfc, expm1, mpf, radians, sin, sqrt, tan, workdps
+from mpmath import cos, erfc, expm1, mpc, mpf, radians, sin, sqrt, tan, workdps
 
 from ..data.measurement import Measurement
 from ..errors import InputError
@@ -210,9 +210,17 @@ def _c_xy(*, tilt, **_):
     return -tan(radians(tilt)) if abs(tilt) < 45 else mpf(-sign)
 
 
+def _at_82_degrees(*, n, k, **_):
+    """F as the mean of |r_s|² and |r_p|² by Fresnel's own two equations."""
+    c, index2 = cos(radians(mpf(82))), mpc(n, k) ** 2
+    q = sqrt(index2 - 1 + c**2)
+    return (abs((c - q) / (c + q)) ** 2 + abs((index2 * c - q) / (index2 * c + q)) ** 2) / 2
+
+
 FOLLOWS: dict[str, Callable] = {  # numbers beside the parameters -> how they follow
     "tau": lambda *, sigma, slope, **_: sigma / slope,
     "F0": lambda *, n, k, **_: ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2),
+    "F82": _at_82_degrees,
     "c_xy": _c_xy,
     "c_z": _c_z,
 }

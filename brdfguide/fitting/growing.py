@@ -9,7 +9,7 @@ import numpy as np
 
 from ..data.measurement import Measurement
 from ..models.candidates import candidate_label, containing
-from ..models.extensions import Extension, extensions
+from ..models.extensions import Extension, edges, extensions, is_metallic
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
 from . import cross_validation
@@ -22,6 +22,7 @@ from .residuals import ln_residuals, rms
 MOST_STEPS = 4
 ALIKE = 1.03  # times the least held-out error up to which the simpler step is taken
 VALUES_EACH = 3  # for each free number, the least with which one grows
+MOST_BEHIND = 3.0  # times the error of the best body and lobe, up to which a metal comes near (ours)
 FOLLOWED = 3  # candidates of a step whose held-out error is formed
 PEAK, SHOULDER = 0.5, 0.05  # of the value in the mirror direction, down to which a lobe has its peak and its shoulder
 LOW_DEG, HIGH_DEG = 30.0, 60.0  # incidence
@@ -61,7 +62,7 @@ def grow(
         return [], (Step(candidate_label(root.layout.model), root.rms, None, shown, because=NOISE),)
     held = cross_validation.held_out_from(root.layout.model, root.values, used, options)
     assert held is not None
-    state, taken = State(root, held.rms_ln), list[Search]()
+    state, taken = State(root, held.rms_ln), _metal_with_edge(root, searches, data, options)
     while len(steps) < MOST_STEPS:
         shown = shown if state.search is root else _shown(state.search, data)
         step = Step(state.name, state.search.rms, state.held_out, shown)
@@ -84,6 +85,22 @@ def _root(searches: Iterable[Search], data: Prepared) -> Search | None:
     for a case. Judged on more directions than it was searched on, among which those near the mirror direction abound.
     """
     return min(filter(_can_grow, searches), key=lambda each: rms(_residuals(each, data)[1]), default=None)
+
+
+def _metal_with_edge(root: Search, searches: Iterable[Search], data: Prepared, options: FitOptions) -> list[Search]:
+    """Beside a root with a body the best metal, where it comes near, with an edge of its own: a metal of n = 1 has a
+    steeper rise toward grazing than most, which a body or a height would be taken for."""
+    metals = [each for each in searches if is_metallic(each.layout.model)]
+    least = min((each.rms for each in metals), default=0.0)
+    near = [each for each in metals if each.rms <= ALIKE * least]
+    best = min(near, key=lambda each: (each.layout.count, each.rms), default=None)
+    if best is None or best is root or is_metallic(root.layout.model) or best.rms > MOST_BEHIND * root.rms:
+        return []
+    tried = [
+        fitting.search(each.model, data, options, Given(each.starts, each.levels, best.rms))
+        for each in edges(best.layout.model, best.values)
+    ]
+    return [each for each in tried if each.rms < BETTER * best.rms]
 
 
 def _can_grow(search: Search) -> bool:

@@ -31,11 +31,13 @@ class Layout:
     def parameters(self) -> dict[str, Parameter]:
         """Those that are free, in the order of the sum."""
         freed = set(self.model.free)
-        return {
+        found = {
             key: p
             for key, p in self.model.parameters.items()
             if key not in self.model.fixed and (p.free or key in freed)
         }
+        absorbing = {f"{key.removesuffix('k')}n" for key in found if key.endswith(".k")}
+        return {key: _below_one(p) if key in absorbing else p for key, p in found.items()}
 
     @cached_property
     def shared(self) -> tuple[str, ...]:
@@ -178,6 +180,11 @@ class Layout:
     def surface(self, shared, per_channel, measurement: Measurement) -> Surface:
         """What the coordinates stand for, in the channels of the measurement."""
         return Surface(self.model, self.decode(shared, per_channel), measurement.channels, measurement.geom.wavelength)
+
+
+def _below_one(index: Parameter) -> Parameter:
+    """An index that is searched for beside k: of a metal it may lie below 1."""
+    return replace(index, low=index.least, origin=0.0)
 
 
 def to_coordinate(parameter: Parameter, value):

@@ -118,11 +118,11 @@ def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry):
         total = total + height * shape
         slopes_of_term = {amplitude: shape} if amplitude in free else {}
         for name in wanted:
-            parameter = model.parameter(name)
+            parameter = layout.parameters[keys[name]]
             if name in known:
                 slopes_of_term[name] = known[name] * (slope_of_coordinate(parameter, of_term[name]) * height)
             else:
-                slopes_of_term[name] = height * _difference(model, geom, unit, parameter)
+                slopes_of_term[name] = height * _difference(model, geom, unit, name, parameter)
         for name, slope in slopes_of_term.items():  # a parameter that terms share has a slope through each of them
             slopes[keys[name]] = slopes[keys[name]] + slope if keys[name] in slopes else slope
     return total, slopes
@@ -133,10 +133,10 @@ def _channels_first(values: Mapping) -> dict:
     return {key: np.reshape(value, (-1, 1)) if np.ndim(value) else value for key, value in values.items()}
 
 
-def _difference(model, geom: Geometry, values: dict, parameter: Parameter):
+def _difference(model, geom: Geometry, values: dict, name: str, parameter: Parameter):
     """Central difference in the coordinate, one-sided at a bound."""
-    at = to_coordinate(parameter, np.asarray(values[parameter.name], float))
+    at = to_coordinate(parameter, np.asarray(values[name], float))
     low, high = to_coordinate(parameter, parameter.low), to_coordinate(parameter, parameter.high)
     above, below = np.minimum(at + STEP, high), np.maximum(at - STEP, low)
-    ends = [model(geom, **{**values, parameter.name: from_coordinate(parameter, end)}) for end in (above, below)]
+    ends = [model(geom, **{**values, name: from_coordinate(parameter, end)}) for end in (above, below)]
     return (ends[0] - ends[1]) / (above - below)

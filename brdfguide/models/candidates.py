@@ -19,7 +19,7 @@ class Grained:
     one_scan: bool = False  # across the grain, higher than its width allows: the width along it follows from the height
 
 
-METAL, HEIGHT_FREE = "metal", "height free"  # what stands behind a candidate's name in brackets
+METAL, HEIGHT_FREE, EDGE_FREE = "metal", "height free", "edge free"  # what stands behind a candidate's name in brackets
 
 
 def of_kind(
@@ -199,6 +199,23 @@ def with_heights(model: Composite) -> Composite:
     return replace(model, free=(*model.free, *(height for height in heights(model) if height not in model.free)))
 
 
+def with_edge(model: Composite) -> Composite:
+    """The same metal with n free beside k, each channel its own: F at 82 degrees, its edge, is no longer F0's to tell.
+
+    Every pair of F0 and an edge that an interface can have is one pair of n and k (Gulbrandsen 2014, "Artist friendly
+    metallic Fresnel", JCGT 3(4)); the edge at 82 degrees is that of Hoffman 2019, "Fresnel equations considered
+    harmful".
+    """
+    freed = [term.key("n") for term in model.terms if term.model.has_index]
+    held = {key: value for key, value in model.fixed.items() if key not in freed}
+    return replace(model, fixed=held, start={**model.start, **dict.fromkeys(freed, 1.0)})
+
+
+def has_edge(model: Composite) -> bool:
+    """Whether n and k are both free."""
+    return any(key.endswith(".k") and f"{key.removesuffix('k')}n" not in model.fixed for key in model.free)
+
+
 def heights(model: Composite) -> list[str]:
     """The amplitudes beside Fresnel's factor of lobes that stand alone; several of one law have theirs free anyway."""
     laws = [term.model for term in model.terms]
@@ -206,11 +223,12 @@ def heights(model: Composite) -> list[str]:
 
 
 def candidate_label(model: Composite) -> str:
-    """The name a candidate is shown under: `ggx (metal)` where k is what is fitted, `ggx (height free)` where a lobe
-    that stands alone has an amplitude beside Fresnel's factor.
+    """The name a candidate is shown under: `ggx (metal)` where k is what is fitted, `ggx (metal, edge free)` where n is
+    too, `ggx (height free)` where a lobe that stands alone has an amplitude beside Fresnel's factor.
     """
     notes = [METAL] if any(key.endswith(".k") for key in model.free) else []
     notes += [word for word in settings(model) if word not in notes and _is_set(model, word)]
+    notes += [EDGE_FREE] if has_edge(model) else []
     notes += [HEIGHT_FREE] if set(heights(model)).intersection(model.free) else []
     return model.name + (f" ({', '.join(notes)})" if notes else "")
 
@@ -223,12 +241,16 @@ def named(label: str, *, metal: bool = False) -> Composite:
     expression, _, words = label.strip().removesuffix(")").partition("(")
     notes = [word.strip() for word in words.split(",") if word.strip()]
     model = models.get(expression.strip())
-    known = list(dict.fromkeys((METAL, HEIGHT_FREE, *settings(model))))
+    known = list(dict.fromkeys((METAL, EDGE_FREE, HEIGHT_FREE, *settings(model))))
     for note in notes:
         if note not in known:
             wanted = ", ".join(f"({word})" for word in known[:-1])
             raise InputError(f"'{label}': found ({note}); wanted {wanted} or ({known[-1]})")
     model = as_metal(model) if metal or METAL in notes else model
+    if EDGE_FREE in notes:
+        if not any(key.endswith(".k") for key in model.free):
+            raise InputError(f"'{label}': found (edge free); wanted (metal, edge free), of a law with Fresnel's factor")
+        model = with_edge(model)
     for word in notes:
         model = set_as(model, word)
     return with_heights(model) if HEIGHT_FREE in notes else model

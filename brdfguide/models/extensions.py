@@ -10,13 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import models
+from ..physics.fresnel import f0
 from . import MOST_LOBES, Composite, Counted, Model
-from .candidates import as_metal, containing, grown, heights, with_heights
+from .candidates import as_metal, containing, grown, has_edge, heights, with_edge, with_heights
 from .model import Parameter, Term, counted
 
 # where a second lobe begins: widths of the first and of the new one, in those of the first alone; ours, after the
 # shapes that two lobes took on measured tables
 SPLITS = ((1.0, 1 / 3), (1.0, 3.0), (1.5, 1 / 3), (0.7, 4.0))
+EDGE_INDICES = (0.2, 1.0, 3.0)  # of metals, with k for the same F0
 SLOPE_INDEX = 1.5  # of a dielectric whose height is no longer n's to carry
 
 
@@ -33,6 +35,7 @@ class Extension:
 def extensions(model: Composite, values: Mapping, kind: str | None = None) -> Iterator[Extension]:
     """Every one of a sum with these values, for a surface of this kind (None: not known)."""
     yield from _heights(model, values)
+    yield from edges(model, values)
     yield from _lobes(model, values)
     yield from _indices(model, values)
     yield from _general(model, values)
@@ -43,13 +46,29 @@ def extensions(model: Composite, values: Mapping, kind: str | None = None) -> It
 def _heights(model: Composite, values: Mapping) -> Iterator[Extension]:
     """Heights that n carried until now."""
     freed = with_heights(model)
-    if freed.free == model.free:
+    if freed.free == model.free or has_edge(model):
         return
     starts = [dict(values)]
-    if not _is_metal(model):
+    if not is_metallic(model):
         ordinary = {term.key("n"): np.full_like(values[term.key("n")], SLOPE_INDEX) for term in _indexed(model)}
         starts.append({**values, **ordinary})
     yield Extension("a height of its own beside Fresnel's factor, for each channel", freed, tuple(starts))
+
+
+def edges(model: Composite, values: Mapping) -> Iterator[Extension]:
+    """F at 82 degrees of a metal, which F0 carried until now; not beside a height of its own."""
+    if not is_metallic(model) or has_edge(model) or set(heights(model)).intersection(model.free):
+        return
+    starts = []
+    for n in EDGE_INDICES:
+        start = dict(values)
+        for term in _indexed(model):
+            normal = f0(values[term.key("n")], values[term.key("k")])
+            k2 = (normal * (n + 1) ** 2 - (n - 1) ** 2) / np.maximum(1 - normal, 1e-6)
+            start |= {term.key("n"): np.full_like(normal, n), term.key("k"): np.sqrt(np.maximum(k2, 1e-4))}
+        starts.append(start)
+    adds = "an edge of its own in Fresnel's curve, F at 82 degrees, for each channel"
+    yield Extension(adds, with_edge(model), tuple(starts))
 
 
 def _lobes(model: Composite, values: Mapping) -> Iterator[Extension]:
@@ -87,7 +106,7 @@ def _indices(model: Composite, values: Mapping) -> Iterator[Extension]:
     """An index for each of some lobes that share one. Those of a metal share what the metal is."""
     on_top, under = counted(model.terms)
     shared = [law for law, count in (*on_top, *under) if law.has_index and count > 1]
-    if not shared or _is_metal(model) or any(term.model.is_coat for term in model.terms):
+    if not shared or is_metallic(model) or any(term.model.is_coat for term in model.terms):
         return
     apart = _alike(model, [each for part in on_top for each in _apart(*part)], under)
     owners = {term.label: term for term in model.terms}
@@ -171,9 +190,10 @@ def width_of(law: Model) -> Parameter | None:
 
 
 def _alike(model: Composite, on_top: Sequence[Counted], under: Sequence[Counted]) -> Composite:
-    """Those laws together, as a metal and with free heights where the sum is and has."""
+    """Those laws together, as a metal, with a free edge and free heights where the sum is and has."""
     longer = models.made_of(on_top, under)
-    longer = as_metal(longer) if _is_metal(model) else longer
+    longer = as_metal(longer) if is_metallic(model) else longer
+    longer = with_edge(longer) if has_edge(model) else longer
     return with_heights(longer) if set(heights(model)).intersection(model.free) else longer
 
 
@@ -198,5 +218,6 @@ def _indexed(model: Composite) -> list[Term]:
     return [term for term in model.terms if term.model.has_index]
 
 
-def _is_metal(model: Composite) -> bool:
+def is_metallic(model: Composite) -> bool:
+    """Whether k is what is fitted."""
     return any(key.endswith(".k") for key in model.free)

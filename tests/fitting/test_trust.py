@@ -13,7 +13,10 @@ from brdfguide.fitting.compare import compare
 from brdfguide.fitting.trust import distrusted
 from brdfguide.models import candidates
 from brdfguide.models.surface import Surface
+from brdfguide.physics.fresnel import fresnel
 from brdfguide.physics.geometry import in_plane, rows
+
+from .. import synthetic
 
 SCAN_I, SCAN_R = (
     each.ravel() for each in np.meshgrid(np.arange(15.0, 76.0, 15.0), np.arange(-80.0, 81.0, 5.0), indexing="ij")
@@ -88,3 +91,18 @@ def striped(amplitude: float) -> str:
 def brdfguide(*words):
     run = [sys.executable, "-m", "brdfguide", *map(str, words)]
     return subprocess.run(run, capture_output=True, text=True, timeout=300)
+
+
+def test_of_a_metal_f0_and_the_edge_are_fitted_and_n_and_k_too_where_the_data_tell_them_apart_seed_5():
+    truth = {"ggx.alpha": 0.2, "ggx.n": 3.2, "ggx.k": 3.3}
+    data = synthetic.surface(models.get("ggx"), synthetic.scan(), truth, noise=0.02, seed=5)
+    found = fit(data, ["ggx (metal)", "ggx (metal, edge free)"], kind="metal", timing=False)
+    assert found.document["recommended"] == "ggx (metal, edge free)"
+    row = found.document["ranking"][0]
+    for name, deg in (("F0", 0.0), ("F82", 82.0)):
+        entry = row["parameters"][f"ggx.{name}"]
+        true = float(fresnel(np.cos(np.radians(deg)), 3.2, 3.3))
+        assert abs(entry["value"][0] - true) < 3 * entry["stderr"][0] < 0.1 and entry["in_place_of"] == ""
+    for name, true in (("n", 3.2), ("k", 3.3)):
+        entry = row["parameters"][f"ggx.{name}"]
+        assert abs(entry["value"][0] - true) < 3 * entry["stderr"][0]

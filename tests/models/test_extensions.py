@@ -7,7 +7,8 @@ from brdfguide import models
 from brdfguide.errors import InputError
 from brdfguide.fitting.layout import Layout
 from brdfguide.models import candidates
-from brdfguide.models.extensions import extensions
+from brdfguide.models.extensions import edges, extensions
+from brdfguide.physics.fresnel import f0
 from brdfguide.physics.geometry import in_plane, rows
 
 from .. import synthetic
@@ -111,6 +112,7 @@ def test_lobes_in_order_keep_their_own_index():
         ("lambertian+ggx (height free)", {"ggx.scale"}),
         ("ggx (metal)", {"ggx.k"}),
         ("ggx (metal, height free)", {"ggx.k", "ggx.scale"}),
+        ("ggx (metal, edge free)", {"ggx.k"}),
         ("  lambertian+ggx ", set()),
     ],
 )
@@ -120,5 +122,19 @@ def test_a_candidate_is_read_by_the_name_it_is_shown_under(label, freed):
 
 
 def test_other_words_in_brackets_are_refused():
-    with pytest.raises(InputError, match=r"found \(wide\); wanted \(metal\) or \(height free\)"):
+    with pytest.raises(InputError, match=r"found \(wide\); wanted \(metal\), \(edge free\) or \(height free\)"):
         candidates.named("ggx (wide)")
+    with pytest.raises(InputError, match=r"found \(edge free\); wanted \(metal, edge free\)"):
+        candidates.named("lambertian+ggx (edge free)")
+
+
+def test_a_metal_is_given_an_edge_of_its_own_at_the_same_reflectance_and_never_beside_a_height():
+    metal = candidates.named("ggx (metal)")
+    values = {**metal.defaults(), "ggx.k": np.array([4.0, 1.0])}
+    (found,) = edges(metal, values)
+    assert candidates.candidate_label(found.model) == "ggx (metal, edge free)"
+    for start in found.starts[1:]:
+        assert f0(start["ggx.n"], start["ggx.k"])[0] == pytest.approx(0.8)
+    assert not list(edges(found.model, values))
+    assert not list(edges(candidates.named("ggx (metal, height free)"), values))
+    assert not list(edges(candidates.named("lambertian+ggx"), values))

@@ -45,7 +45,7 @@ def test_pictures_of_another_renderer_give_the_law_that_they_were_made_with(data
         tmp_path, [(folder / f"{name}_{p}.exr", folder / f"reference_{p}.exr", "reference") for p in ("040", "110")]
     )
     document = fit(path).document
-    assert document["recommended"] == law, document["because"]
+    assert document["recommended"].replace(", edge free", "") == law, document["because"]
     rows = sorted(document["ranking"], key=lambda row: (float(f"{row['rms_ln']:.4g}"), row["free_parameters"]))
     others = [row for row in rows if "free" not in row["candidate"] and "student" not in row["model"]]
     assert others[0]["model"] == law.removesuffix(" (metal)")

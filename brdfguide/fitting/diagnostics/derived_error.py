@@ -5,7 +5,7 @@
 The s are the fit's standard errors, with all that widens them; the ρ are those of (JᵀJ)⁻¹, J of ln f by the parameters.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -17,22 +17,29 @@ STEP = 1e-4  # of a value, for central differences
 
 
 def ln_stderr(fit: Fit, measurement: Measurement, of: Callable[[Mapping], float]) -> float:
-    """Standard error of ln of(values), `of` a number that depends on shared parameters alone; infinite where the data
-    say nothing of one of them.
-    """
+    """Standard error of ln of(values); infinite where the data say nothing of a parameter that it depends on."""
+    return ln_stderrs(fit, measurement, [of])[0]
+
+
+def ln_stderrs(fit: Fit, measurement: Measurement, numbers: Sequence[Callable[[Mapping], float]]) -> list[float]:
+    """The same of several numbers, with J formed once."""
     free = [(key, place) for key, error in fit.stderr.items() for place in range(np.size(error))]
     slopes = np.stack([_slope(fit, measurement, key, place) for key, place in free], axis=1)
     known = np.isfinite(slopes).all(axis=1)
     size = np.linalg.norm(slopes[known], axis=0)
     if not np.all(size > 0):
-        return float("inf")
+        return [float("inf")] * len(numbers)
     inverse = np.linalg.pinv((slopes[known] / size).T @ (slopes[known] / size))
     spread = np.sqrt(np.diag(inverse))
     correlation = inverse / spread / spread[:, None]
     errors = np.array([np.ravel(fit.stderr[key])[place] for key, place in free])
-    by = np.array([_by(fit, of, key) for key, _ in free])
-    weighed = np.where(by == 0, 0.0, by * errors)
-    return float(np.sqrt(weighed @ correlation @ weighed)) if np.all(np.isfinite(weighed)) else float("inf")
+    found = []
+    for of in numbers:
+        by = np.array([_by(fit, of, key, place) for key, place in free])
+        weighed = np.where(by == 0, 0.0, by * errors)
+        known = bool(np.all(np.isfinite(weighed)))
+        found.append(float(np.sqrt(weighed @ correlation @ weighed)) if known else float("inf"))
+    return found
 
 
 def _slope(fit: Fit, measurement: Measurement, key: str, place: int) -> np.ndarray:
@@ -49,11 +56,15 @@ def _slope(fit: Fit, measurement: Measurement, key: str, place: int) -> np.ndarr
     return np.where(measurement.clear, slope, np.nan)[measurement.clear]
 
 
-def _by(fit: Fit, of: Callable[[Mapping], float], key: str) -> float:
-    """d ln of/dp of a shared parameter; 0 where `of` does not depend on it."""
-    value = fit.values[key]
-    if np.ndim(value):
-        return 0.0
-    step = STEP * max(abs(float(value)), 1e-12)
-    above, below = (of({**fit.values, key: value + sign * step}) for sign in (1, -1))
+def _by(fit: Fit, of: Callable[[Mapping], float], key: str, place: int) -> float:
+    """d ln of/dp of a parameter, of what a channel has for itself that of one channel; 0 where `of` does not depend on
+    it."""
+    value = np.array(fit.values[key], float)
+    step = STEP * max(abs(float(np.ravel(value)[place])), 1e-12)
+    ends = []
+    for sign in (1, -1):
+        moved = value.copy()
+        moved.reshape(-1)[place] += sign * step
+        ends.append(of({**fit.values, key: moved if value.ndim else float(moved)}))
+    above, below = ends
     return float((np.log(above) - np.log(below)) / (2 * step))

@@ -290,7 +290,8 @@ def _logarithmic(parameter, key: str, values: Mapping):
     value = np.asarray(values[key], float)
     slope = slope_of_coordinate(parameter, value)
     if parameter.name == "n":
-        k, step = np.asarray(values.get(key[:-1] + "k", 0.0), float), 1e-6 * (value - 1)  # a coat has none
+        # a coat has no k
+        k, step = np.asarray(values.get(key[:-1] + "k", 0.0), float), 1e-6 * np.maximum(np.abs(value - 1), 1e-3)
         rate = (np.log(fresnel.f0(value + step, k)) - np.log(fresnel.f0(value - step, k))) / (2 * step)
         return f"F0 of {key[:-2]}", fresnel.f0(value, k), float(np.mean(rate * slope))
     size = value - parameter.origin

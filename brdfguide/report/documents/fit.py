@@ -18,12 +18,13 @@ from ...fitting.off_plane_price import off_plane_price
 from ...fitting.ranked import Ranking, Row
 from ...fitting.stray_light import stray_light
 from ...flags import Effect
-from ...physics import fresnel, seen
+from ...physics import seen
 from .data import data_block, read_with_block
 from .digest import with_digest
 from .findings import finding
 from .off_plane import missing_block, price_block
 from .plain import plain
+from .reflectances import reflectances
 from .stray_light import stray_light_block
 
 NOTICED = "lightness on a sphere: what people notice side by side [L*]"
@@ -231,7 +232,7 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
         "growth": row.growth,
         "behind": row.behind,
         "behind_se": row.behind_se,
-        "parameters": _parameters(fit, shows),
+        "parameters": _parameters(fit, shows, measurement),
         "typed": _typed(fit),
         "free_parameters": fit.free,
         "evaluations": fit.evaluations,
@@ -243,7 +244,7 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
     return entry
 
 
-def _parameters(fit: Fit, shows: Mapping) -> dict:
+def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
     """Every value, fitted or fixed, and what follows from them; at_bound is "low", "high" or null.
 
     Of those in `shows` also how well they are known, as two standard errors, and from which share of their value on a
@@ -276,7 +277,7 @@ def _parameters(fit: Fit, shows: Mapping) -> dict:
                 "at_bound": None,
                 "derived": True,
             }
-    out |= _reflectances(fit)
+    out |= reflectances(fit, measurement)
     for warning in fit.warnings:
         if warning.effect is Effect.BOUNDS:
             key, numbers = warning.subject, dict(warning.numbers)
@@ -297,25 +298,6 @@ def _typed(fit: Fit) -> dict:
         for key, parameter in fit.model.parameters.items()
         if fit.stderr.get(key) is not None or not np.all(np.asarray(fit.values[key]) == parameter.default)
     }
-
-
-def _reflectances(fit: Fit) -> dict:
-    """F0 of each lobe of which k was fitted, with its standard error: what the data say of a metal, whose n they seldom
-    tell from k."""
-    out = {}
-    for key in (key for key, error in fit.stderr.items() if key.endswith(".k") and error is not None):
-        label = key.removesuffix(".k")
-        n, k = (np.asarray(fit.values[f"{label}.{name}"], float) for name in "nk")
-        slope = 8 * n * k / ((n + 1) ** 2 + k**2) ** 2  # dF0/dk
-        out[f"{label}.F0"] = {
-            "value": fresnel.f0(n, k),
-            "stderr": slope * np.asarray(fit.stderr[key]),
-            "unit": "",
-            "at_bound": None,
-            "derived": True,
-            "in_place_of": key,
-        }
-    return out
 
 
 def _known_to(value, stderr) -> float:

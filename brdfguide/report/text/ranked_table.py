@@ -105,14 +105,14 @@ def number_text(value, form: str) -> str:
 
 
 def parameters_text(row: dict) -> str:
-    """What was fitted, shapes first, with standard errors, and lengths that follow; F0 in place of k; a range where
-    channels differ."""
+    """What was fitted, shapes first, with standard errors, and lengths that follow; F0 in place of k, and F at 82
+    degrees in place of n, or beside them where the data tell both; a range where channels differ."""
     replaced = {entry["in_place_of"] for entry in row["parameters"].values() if entry.get("in_place_of")}
     entries = {
         key: entry
         for key, entry in row["parameters"].items()
         if key not in replaced
-        and (entry.get("fitted") or entry.get("in_place_of") or (entry.get("derived") and entry["unit"]))
+        and (entry.get("fitted") or "in_place_of" in entry or (entry.get("derived") and entry["unit"]))
     }
     short = {key: key.rpartition(".")[2] for key in entries}
     names = list(short.values())
