@@ -76,15 +76,13 @@ def _mirror_bound(picture: Picture, term, values: Mapping, box) -> float:
     """ln(1 + ρ) against the darkest body; infinite where nothing else is sure to shine."""
     q = picture.quadrature
     low, high = max(box["theta_i_deg"][0], box["theta_r_deg"][0]), min(box["theta_i_deg"][1], box["theta_r_deg"][1])
-    edge = float(np.degrees(q.radii.max()))
-    if q.scene.environment == 0 and low > high + 2 * edge:
+    edge = float(np.degrees(q.radii.max(initial=0.0)))
+    if q.scene.around is None and low > high + 2 * edge:
         return 0.0  # no light is ever seen mirrored
     theta = np.clip(np.linspace(low - edge, high + edge, STEPS), 0.0, 89.99)[:, None]
     rho = float(term.model.mirror(in_plane(theta, theta), **values).max())
-    light = (
-        max(light.irradiance / (pi * radius**2) for light, radius in zip(q.scene.lights, q.radii, strict=True))
-        + q.scene.environment / pi
-    )
+    lamps = [light.irradiance / (pi * radius**2) for light, radius in zip(q.scene.lights, q.radii, strict=True)]
+    light = max(lamps, default=0.0) + (q.scene.around.brightest if q.scene.around else 0.0)
     bodies = [each for each in picture.features.terms if each.model.is_body]
     dimmest = [np.min(np.add(*picture.layer(each, frozenset()))[picture.weights > 0]) for each in bodies]
     floor = sum(dimmest) * q.scene.display.exposure + q.scene.display.floor

@@ -96,7 +96,8 @@ class Range:
 
 
 def sampled(scene: Scene, size: int, seed: int, width: float):
-    """Weights (pixels,), camera (pixels, 3) and lights (pixels, lights, 3) in the frame of the surface.
+    """Weights (pixels,), camera (pixels, 3) and lights (pixels, lights, 3) in the frame of the surface, and the axes of
+    that frame in the object's, rows of (pixels, 3, 3) or (3, 3).
 
     Takes  width [rad], of the narrowest lobe that may be seen.    Gives  `size` pixels; weight 0 for those outside.
     """
@@ -109,7 +110,8 @@ def sampled(scene: Scene, size: int, seed: int, width: float):
     camera = camera_range.sample(u[0], u[1])
     if scene.in_plane:
         camera = camera * np.where(u[1:2].T < 0.5, [[-1.0, -1.0, 1.0]], 1.0)
-    lights = np.stack([each.sample(u[6 + 2 * j], u[7 + 2 * j]) for j, each in enumerate(ranges)], axis=1)
+    drawn = [each.sample(u[6 + 2 * j], u[7 + 2 * j]) for j, each in enumerate(ranges)]
+    lights = np.stack(drawn, axis=1) if drawn else np.zeros((size, 0, 3))
     normals = _normals(scene.shape, camera, u[2])
     spreads = [np.where(u[5] < 0.5, *_spreads(scene, j, width)) for j in range(count)]
     curved = scene.shape in ("sphere", "cylinder")
@@ -143,11 +145,22 @@ def sampled(scene: Scene, size: int, seed: int, width: float):
         inside &= ranges[j].contains(lights[:, j])
     if not scene.in_plane:
         inside &= camera_range.contains(camera)
-    weights = np.where(inside, 1 / (0.5 + 0.5 * ratio), 0.0)
+    weights = np.where(inside, 1 / (0.5 + 0.5 * ratio) if count else 1.0, 0.0)
     if scene.shape in ("plane", "arbitrary"):
-        return weights, camera, lights
+        return weights, camera, lights, _upright(scene, size, rng)
     frame = np.stack([*sphere.tangents(normals), normals], axis=1)
-    return weights, np.einsum("sij,sj->si", frame, camera), np.einsum("sij,slj->sli", frame, lights)
+    return weights, np.einsum("sij,sj->si", frame, camera), np.einsum("sij,slj->sli", frame, lights), frame
+
+
+def _upright(scene: Scene, size: int, rng) -> np.ndarray:
+    """The frame of a plane, which is the object's; of an arbitrary shape, whose surface may be turned any way, axes
+    that are."""
+    if scene.shape == "plane" or scene.around is None:
+        return np.eye(3)
+    normals = sphere.from_angles(2 * rng.random(size) - 1, 2 * pi * rng.random(size))
+    turn = 2 * pi * rng.random(size)[:, None]
+    x, y = sphere.tangents(normals)
+    return np.stack([np.cos(turn) * x + np.sin(turn) * y, np.cos(turn) * y - np.sin(turn) * x, normals], axis=1)
 
 
 def _spreads(scene: Scene, light: int, width: float) -> tuple[float, float]:
@@ -203,4 +216,4 @@ def listed_pixels(scene: Scene):
     lights = sphere.from_angles(
         np.cos(np.radians([p.theta_i_deg for p in pairs])), np.radians([p.phi_deg for p in pairs])
     )
-    return np.array([p.weight for p in pairs]), camera, lights[:, None, :]
+    return np.array([p.weight for p in pairs]), camera, lights[:, None, :], np.eye(3)

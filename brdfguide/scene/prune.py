@@ -34,6 +34,7 @@ MOST_PIXELS = 8000
 MOST_WORK = 3e8  # additions to judge all variants of all terms once: some half second
 MOST_SAMPLES = 4  # fresh samples of a picture, until one reproduces the next
 MOST_MORE = 8  # their pixels, times those searched with
+MOST_SURROUNDED = 8000  # pixels for which surroundings are looked up in all directions
 PERTURBED = (0.9, 1.1)
 
 
@@ -119,7 +120,7 @@ def prune(
     rows = search.cost_directions(picture)
     others = [each for each in candidates if each.surface is not pick.surface]
     savings, front = search.timed(picture, singles, search.pareto_front([*others, pick]), clock)
-    operations = partial(cost.operations, geom=rows[: cost.COUNTED])
+    operations = partial(cost.operations, geom=search.counted_directions(picture))
     times = (clock({"": evaluators[0]}, rows)[""],) * 2 if pick.whole else cost.compare_times(*evaluators, rows, clock)
     found = Pruned(
         scene=scene,
@@ -213,6 +214,8 @@ def _picked(picture: Picture, candidates, ablations: dict, sample, seed: int, cl
     scene, size, whole = picture.quadrature.scene, len(picture.weights), ablations[NOTHING]
     # only the pick and the whole are judged now, so that many more pixels can be had, and rare ones are found
     more = int(np.clip(MOST_WORK / (4 * whole.work * len(search.cost_directions(picture))), 1, MOST_MORE))
+    if picture.quadrature.to_world is not None:
+        more = max(min(more, MOST_SURROUNDED // size), 1)
     afresh = lru_cache(lambda step: sample(scene, more * size, seed + step))
     perturbed = lru_cache(lambda factor: sample(scene.scaled(factor), size, seed))
     tried = set()

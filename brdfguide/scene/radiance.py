@@ -1,30 +1,26 @@
 """The radiance that a reflectance law sends into the camera, over the pixels of a scene.
 
-    L = Σ_lights E ⟨f cos θi⟩_disc  +  mirror · (radiance of what is seen in the mirror)  +  environment
+    L = Σ_lights E ⟨f cos θi⟩_disc  +  mirror · (radiance of what is seen in the mirror)  +  light from all around
 
-A light is a disc and is averaged over; a mirror shows it; a uniform environment is integrated for a few view angles
-and interpolated. Everything is linear in f, so that the parts of a law can be integrated apart and added.
+A light is a disc and is averaged over (`lamps`); a mirror shows it; what stands all around is integrated
+(`all_around`).
+Everything is linear in f, so that the parts of a law can be integrated apart and added.
 """
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import ceil, pi, radians
+from math import pi, radians
 
 import numpy as np
 
 from ..numerics import sphere
 from ..physics.geometry import Geometry, rows
-from . import pixels
+from . import lamps, pixels
+from .all_around import AllAround
+from .lamps import FLIP
 from .scene import Scene
 
 LEAST_RADIUS = radians(0.5 / 60)  # half an arc minute: what the eye takes for a point
-MOST_DISC_POINTS = 24
-ENVIRONMENT_NODES = 16  # view angles at which the light all around is integrated
-ENVIRONMENT_POINTS = 512  # directions for each of them
-FEWER_POINTS = 128  # the same while shapes are searched
-# 1/p and 1/p² of p³ = p + 1: points that fill the square evenly
-EVEN_STEPS = np.array([0.7548776662466927, 0.5698402909980532])
-FLIP = np.array([-1.0, -1.0, 1.0])  # a direction to its mirror direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +33,8 @@ class Quadrature:
     to_camera: np.ndarray  # (pixels, 3)
     to_lights: np.ndarray  # (pixels, lights, 3)
     width: float  # of the narrowest lobe [rad]
-    points: int = ENVIRONMENT_POINTS  # of the environment, for each view angle integrated
+    to_world: np.ndarray | None = None  # (pixels, 3, 3) to the world of the surroundings, where these have a form
+    fewer: bool = False  # whether light from all around is integrated coarsely
 
     def __len__(self) -> int:
         return len(self.weights)
@@ -61,18 +58,17 @@ class Quadrature:
     @cached_property
     def lit(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
         """Directions (rows, 1) to the points of all discs, the factor each carries, and the pixel it belongs to."""
-        directions, factors, pixels = [], [], []
-        for place, (light, radius) in enumerate(zip(self.scene.lights, self.radii, strict=True)):
-            # as many points as a lobe needs to vary little from one to the next
-            count = int(np.clip(ceil(2 * (radius / self.width) ** 2), 1, MOST_DISC_POINTS))
-            points = sphere.cap(self.to_lights[:, place], radius if count > 1 else 0.0, count)
-            directions.append(points.reshape(-1, 3))
-            factors.append(np.full(len(self) * count, light.irradiance / count))
-            pixels.append(np.repeat(np.arange(len(self)), count))
-        towards, pixel = np.concatenate(directions), np.concatenate(pixels)
-        above = towards[:, 2] > 0
-        geom = rows(Geometry.from_vectors(towards[above], self.to_camera[pixel[above]]))
-        return geom, (np.concatenate(factors) * towards[:, 2])[above] * self.unit, pixel[above]
+        parts = [
+            (directions, light.irradiance * shares, pixel)
+            for place, (light, radius) in enumerate(zip(self.scene.lights, self.radii, strict=True))
+            for directions, shares, pixel in [
+                lamps.lit_points(self.to_lights[:, place], self.to_camera, radius, self.width)
+            ]
+        ]
+        parts.append((np.zeros((0, 3)), np.zeros(0), np.zeros(0, int)))  # of a scene without lamps
+        towards, factor, pixel = (np.concatenate(each) for each in zip(*parts, strict=True))
+        geom = rows(Geometry.from_vectors(towards, self.to_camera[pixel]))
+        return geom, factor * towards[:, 2] * self.unit, pixel
 
     @cached_property
     def mirrored(self) -> tuple[Geometry, np.ndarray]:
@@ -80,42 +76,33 @@ class Quadrature:
         image = self.to_camera * FLIP
         chord2 = np.sum((image[:, None, :] - self.to_lights) ** 2, axis=2)
         brightness = np.array([light.irradiance for light in self.scene.lights]) / (pi * self.radii**2)
-        radiance = np.where(chord2 <= self.radii**2, brightness, 0.0).sum(axis=1) + self.scene.environment / pi
+        radiance = np.where(chord2 <= self.radii**2, brightness, 0.0).sum(axis=1)
+        if self.scene.around:
+            world = image if self.to_world is None else np.einsum("pij,pj->pi", self.to_world, image)
+            radiance = radiance + self.scene.around.radiance(world)
         return rows(Geometry.from_vectors(image, self.to_camera)), radiance * self.unit
 
     @cached_property
-    def around(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
-        """Directions all around at a few view angles, the factor of each row, and (pixels, nodes) to interpolate."""
-        angles = np.radians(89.5 * np.sin(np.linspace(0, pi / 2, ENVIRONMENT_NODES)))  # closer together toward grazing
-        view = np.repeat(sphere.from_angles(np.cos(angles), 0.0)[:, None, :], self.points, axis=1)
-        half = self.points // 2
-        u, v = np.remainder(np.arange(half)[:, None] * EVEN_STEPS + 0.5 / half, 1.0).T
-        mirror, spread = view * FLIP, 2 * self.width
-        # half of the points even under the cosine, half about the mirror direction, each weighed by both densities
-        even = np.broadcast_to(sphere.from_angles(np.sqrt(1 - u), 2 * pi * v), mirror[:, :half].shape)
-        towards = np.concatenate([even, sphere.near(mirror[:, half:], spread, u, v)], axis=1)
-        cosine = np.maximum(towards[..., 2], 0.0)
-        density = 0.5 * cosine / pi + 0.5 * sphere.near_density(towards, mirror, spread)
-        factor = self.scene.environment / pi * cosine / density / self.points * self.unit
-        geom = rows(Geometry.from_vectors(towards.reshape(-1, 3), view.reshape(-1, 3)))
-        theta = np.minimum(
-            np.arctan2(np.hypot(self.to_camera[:, 0], self.to_camera[:, 1]), self.to_camera[:, 2]), angles[-1]
-        )
-        low = np.minimum(np.searchsorted(angles, theta, side="right") - 1, ENVIRONMENT_NODES - 2)
-        share = (theta - angles[low]) / (angles[low + 1] - angles[low])
-        between, pixel = np.zeros((len(self), ENVIRONMENT_NODES)), np.arange(len(self))
-        between[pixel, low], between[pixel, low + 1] = 1 - share, share
-        return geom, factor.ravel(), between
+    def around(self) -> AllAround | None:
+        """The quadrature of light from all around, where there is any."""
+        around = self.scene.around
+        return around and AllAround(around, self.to_camera, self.to_world, self.width, self.fewer)
+
+    @property
+    def representative(self) -> Geometry:
+        """Directions (rows, 1) in which the law is asked: to the lamps, or all around where none is seen."""
+        geom = self.lit[0]
+        return geom if len(geom) or self.around is None else self.around.tabulated[0]
 
     def radiance(self, brdf) -> np.ndarray:
         """Relative radiance (pixels, channels) of the finite part of a law, `brdf(geom)` [1/sr]."""
         geom, factor, pixel = self.lit
-        values = brdf(geom) * factor[:, None]
-        total = np.stack([np.bincount(pixel, column, len(self)) for column in values.T], axis=1)
-        if self.scene.environment:
-            geom, factor, between = self.around
+        total = 0.0
+        if len(geom) or self.around is None:
             values = brdf(geom) * factor[:, None]
-            total = total + between @ values.reshape(ENVIRONMENT_NODES, self.points, -1).sum(axis=1)
+            total = np.stack([np.bincount(pixel, column, len(self)) for column in values.T], axis=1)
+        if self.around is not None:
+            total = total + self.around.reflected(brdf) * self.unit
         return total
 
     def mirror_radiance(self, mirror) -> np.ndarray:
@@ -124,20 +111,25 @@ class Quadrature:
         return mirror(geom) * radiance[:, None]
 
     def angles_deg(self, pixel: int) -> tuple[float, float, float]:
-        """theta_i, theta_r and phi [deg] of one pixel, to the light nearest to its mirror direction."""
+        """theta_i, theta_r and phi [deg] of one pixel, to the light nearest to its mirror direction; without lights to
+        that direction itself."""
+        if not self.scene.lights:
+            theta = float(np.degrees(np.arccos(np.clip(self.to_camera[pixel, 2], 0, 1))))
+            return round(theta, 2), round(theta, 2), 180.0  # what it mirrors
         nearest = np.argmin(np.sum((self.to_lights[pixel] - self.to_camera[pixel] * FLIP) ** 2, axis=1))
         geom = Geometry.from_vectors(self.to_lights[pixel, nearest], self.to_camera[pixel])
         phi = abs(float(np.degrees(sphere.wrapped(np.radians(geom.phi_deg)))))
         return round(float(geom.theta_i_deg), 2), round(float(geom.theta_r_deg), 2), round(phi, 2)
 
     def some(self, pixels) -> "Quadrature":
-        """The same for some of the pixels, with their shares of the picture unchanged, and a coarser environment."""
+        """The same for some of the pixels, with their shares of the picture unchanged, and coarser surroundings."""
         return replace(
             self,
             weights=self.weights[pixels],
             to_camera=self.to_camera[pixels],
             to_lights=self.to_lights[pixels],
-            points=FEWER_POINTS,
+            to_world=None if self.to_world is None else self.to_world[pixels],
+            fewer=True,
         )
 
     @cached_property
@@ -164,7 +156,7 @@ class Quadrature:
     @cached_property
     def angular_range_deg(self) -> dict[str, tuple[float, float]]:
         """The box widened to the rims of the lights, and to all angles where light comes from all around."""
-        if self.scene.environment:
+        if self.scene.around:
             return dict.fromkeys(("theta_i_deg", "theta_r_deg", "theta_h_deg", "theta_d_deg"), (0.0, 90.0)) | {
                 "phi_deg": (0.0, 180.0)
             }
@@ -182,12 +174,15 @@ def sample(scene: Scene, size: int, seed: int, width: float) -> Quadrature:
     Takes  width [rad], of the narrowest lobe that may be seen.    Gives  a Quadrature, the same for the same seed.
     """
     for more in (1, 8, 64):
-        weights, camera, lights = (
+        weights, camera, lights, frame = (
             pixels.listed_pixels(scene) if scene.pairs else pixels.sampled(scene, more * size, seed, width)
         )
-        lit = np.any(lights[..., 2] > 0, axis=1) | (scene.environment > 0)
+        lit = np.any(lights[..., 2] > 0, axis=1) | (scene.around is not None)
         kept = (weights > 0) & (camera[:, 2] > 0) & lit
         if scene.pairs or np.count_nonzero(kept) > size / 4:
             break
-    weights = weights[kept]
-    return Quadrature(scene, seed, weights / max(weights.sum(), 1e-300), camera[kept], lights[kept], width)
+    weights, to_world = weights[kept], None
+    if scene.around and scene.around.kind != "uniform":
+        to_world = np.broadcast_to(scene.around.of_object @ np.swapaxes(frame, -1, -2), (len(kept), 3, 3))[kept]
+    weights = weights / max(weights.sum(), 1e-300)
+    return Quadrature(scene, seed, weights, camera[kept], lights[kept], width, to_world)

@@ -11,6 +11,7 @@ from math import pi, sqrt
 from .. import yaml_schema
 from ..physics.display import Display
 from ..yaml_schema import Field
+from .surroundings import KINDS, Surroundings
 
 SHAPES = ("plane", "sphere", "cylinder", "box", "arbitrary")
 COLOURS = ("grey", "rgb", "spectral")
@@ -85,6 +86,7 @@ class Scene:
     camera: DirectionRange = DirectionRange()
     lights: tuple[Light, ...] = (Light(),)
     environment: float = 0.0  # irradiance from all around, even, on the scale of the lights
+    surroundings: Surroundings | None = None  # in its place: light from all around with a form
     pairs: tuple[DirectionPair, ...] = ()  # in place of shape, camera and directions of lights
     pixels: float = 1e6  # that the object covers
     pixel_normal_deg: float | None = None  # rms turn of the normal within a pixel; None: from shape and pixels
@@ -99,7 +101,14 @@ class Scene:
     @property
     def total_irradiance(self) -> float:
         """What a surface that faces every light receives; the radiance of a perfect white one is this over π."""
-        return sum(light.irradiance for light in self.lights) + self.environment
+        return sum(light.irradiance for light in self.lights) + (self.around.irradiance if self.around else 0.0)
+
+    @property
+    def around(self) -> Surroundings | None:
+        """What lights it from all around."""
+        if self.surroundings is None and self.environment:
+            return Surroundings("uniform", self.environment)
+        return self.surroundings
 
     @property
     def pixel_normal(self) -> float:
@@ -132,11 +141,12 @@ class Scene:
             f"{'' if self.pairs else _range(light.directions) + ' '}radius {light.radius_deg:g}°"
             for light in self.lights
         )
-        around = f", environment {self.environment:g}" if self.environment else ""
+        around = f"; around it {self.around.describe()}" if self.around else ""
+        lights = f"; light {lights}" if lights else ""
         size = "" if self.pairs else f"{self.pixels:g} pixels; "
         d = self.display
         return (
-            f"{self.name}: {views}; light {lights}{around}; {size}{self.colour}; "
+            f"{self.name}: {views}{lights}{around}; {size}{self.colour}; "
             f"exposure {d.exposure:g}, white {d.white:g}, floor {d.floor:g}, Weber fraction {d.weber:g}; "
             f"{self.tolerance.describe()}"
         )
@@ -167,7 +177,23 @@ FIELDS = (
         ),
         meaning="where it is lit from",
     ),
-    Field("environment", "number", low=0, meaning="irradiance from all around, relative to the lights"),
+    Field("environment", "number", low=0, meaning="irradiance from all around, even, relative to the lights"),
+    Field(
+        "surroundings",
+        "group",
+        choices=KINDS,
+        fields=(
+            Field("kind", "word", choices=KINDS, required=True, meaning="what stands around: " + ", ".join(KINDS)),
+            Field(
+                "irradiance", "number", above=0, meaning="on a surface facing the brightest side, relative to lights"
+            ),
+            Field(
+                "up", "group", fields=_ANGLES, meaning="where upward is in the object's frame; a wall's is theta_deg 90"
+            ),
+            Field("turn_deg", "number", "deg", low=-360, high=360, meaning="turned about upward"),
+        ),
+        meaning="what is reflected; without `lights`, all there is of light",
+    ),
     Field(
         "directions",
         "groups",
@@ -249,6 +275,7 @@ def _sensible(document):
                 f"the environment"
             ),
         )
+    yield from _sensible_surroundings(values)
     if values.get("in_plane") and shape not in ("plane", "arbitrary"):
         yield "in_plane", f"a {shape} shows normals in every plane; in_plane goes with shape plane or arbitrary"
     places = {
@@ -273,6 +300,17 @@ def _sensible(document):
                 f"{place}.phi_deg",
                 f"'{place}.phi_deg' runs from {low:g} to {high:g}; the smaller comes first, at most 360 apart",
             )
+
+
+def _sensible_surroundings(values):
+    """What is around a scene once only, and which way is up with one angle each."""
+    around = values.get("surroundings")
+    if around is not None and values.get("environment"):
+        yield "environment", "'environment' and 'surroundings' exclude each other: even light is surroundings: uniform"
+    if isinstance(around, dict):
+        for name, angles in around.get("up", {}).items():
+            if len(set(angles)) > 1:
+                yield f"surroundings.up.{name}", f"'surroundings.up.{name}' is a range; upward is one direction"
 
 
 def _scene(document) -> Scene:
@@ -304,6 +342,10 @@ def _scene(document) -> Scene:
             )
             for light in values["lights"]
         )
+    if "surroundings" in values:
+        given["surroundings"] = _surroundings(values["surroundings"])
+        if "directions" not in values:
+            given.setdefault("lights", ())
     if "directions" in values:
         given["pairs"] = tuple(DirectionPair(**pair) for pair in values["directions"])
     if "display" in values:
@@ -316,6 +358,17 @@ def _scene(document) -> Scene:
         )
     given.setdefault("name", document.name.rpartition("/")[2].removesuffix(".yaml"))
     return Scene(**given, source=document.name)
+
+
+def _surroundings(said) -> Surroundings:
+    """Surroundings from their name alone, or from a group."""
+    if isinstance(said, str):
+        return Surroundings(said)
+    up = {name: angles[0] for name, angles in said.get("up", {}).items()}
+    return Surroundings(
+        **{key: said[key] for key in ("kind", "irradiance", "turn_deg") if key in said},
+        up_deg=(up.get("theta_deg", 0.0), up.get("phi_deg", 0.0)),
+    )
 
 
 def _directions(group, every_way) -> DirectionRange:

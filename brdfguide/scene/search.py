@@ -4,20 +4,22 @@ Operations decide which of two is cheaper, since they are the same in every run;
 """
 
 from dataclasses import dataclass, replace
-from functools import partial, reduce
+from functools import lru_cache, partial, reduce
 
 from ..models import cost
 from ..models.cost import NO_TIME, Saving, Time
 from ..models.surface import Surface
 from ..numerics import pareto
 from ..physics.geometry import Geometry
-from . import bounds, substitutes
+from . import bounds, radiance, substitutes
 from .difference import Errors, Picture
 from .features import MIRROR, NOTHING, Ablation, Feature, Features
+from .scene import Scene, Tolerance
 
 MOST_ABLATIONS = 256  # tried one by one; with more, parts are left out greedily
 NEAR_MISS = 6.0  # times the tolerance: worth refitting the shapes too
 MOST_NEAR_MISSES = 3
+COUNTED_PIXELS = 500  # of the scene, on whose directions operations are counted
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,9 +52,19 @@ def evaluator(surface: Surface):
 
 def cost_directions(picture: Picture) -> Geometry:
     """The directions on which costs are taken: to the lights, or all around where none is seen."""
-    to_lights = picture.quadrature.lit[0]
-    geom = to_lights if len(to_lights) else picture.quadrature.around[0]
-    return geom.at(picture.features.surface.wavelengths)
+    return picture.quadrature.representative.at(picture.features.surface.wavelengths)
+
+
+def counted_directions(picture: Picture) -> Geometry:
+    """A few directions of the scene on which operations are counted, whatever was drawn for the picture since."""
+    q = picture.quadrature
+    scene = replace(q.scene, tolerance=Tolerance())
+    return _counted(scene, q.seed, q.width).at(picture.features.surface.wavelengths)
+
+
+@lru_cache(maxsize=4)
+def _counted(scene: Scene, seed: int, width: float) -> Geometry:
+    return radiance.sample(scene, COUNTED_PIXELS, seed, width).representative[: cost.COUNTED]
 
 
 def is_out(feature: Feature, ablation: Ablation) -> bool:
@@ -143,8 +155,8 @@ def pareto_front(candidates) -> tuple[Candidate, ...]:
 
 
 def work_per_direction(picture: Picture, surface: Surface) -> float:
-    """Operations per direction, in additions."""
-    return cost.work(cost.operations(evaluator(surface), cost_directions(picture)[: cost.COUNTED]))
+    """Operations per direction, in additions, on directions that are the same for every tolerance."""
+    return cost.work(cost.operations(evaluator(surface), counted_directions(picture)))
 
 
 def work_of_variants(picture: Picture) -> float:
@@ -155,7 +167,7 @@ def work_of_variants(picture: Picture) -> float:
         for term in features.terms
         for variant in features.variants(term)
     )
-    return sum(cost.work(cost.operations(each, cost_directions(picture)[: cost.COUNTED])) for each in evaluators)
+    return sum(cost.work(cost.operations(each, counted_directions(picture))) for each in evaluators)
 
 
 def timed(picture: Picture, singles, shown, clock) -> tuple[dict[Feature, Saving], tuple[Candidate, ...]]:

@@ -55,9 +55,12 @@ class Surroundings:
         directions = np.asarray(directions, float)
         return self.radiance(directions)[..., None] * _tint_of(self.kind, directions)
 
-    def radiance(self, directions) -> np.ndarray:
-        """Radiance (...) [irradiance/sr] of white light, of unit directions (..., 3) in the world."""
-        return self.irradiance / _brightest_side(self.kind) * _FORMS[self.kind](np.asarray(directions))
+    def radiance(self, directions, blur=0.0) -> np.ndarray:
+        """Radiance (...) [irradiance/sr] of white light, of unit directions (..., 3) in the world.
+
+        Its edges are averaged over `blur` (...) [rad], for a quadrature whose directions stand that far apart.
+        """
+        return self.irradiance / _brightest_side(self.kind) * _FORMS[self.kind](np.asarray(directions), blur)
 
     @cached_property
     def brightest(self) -> float:
@@ -82,22 +85,36 @@ class Surroundings:
         return f"{name.get(self.kind, 'a room with a window')}, {self.irradiance:g}"
 
 
-def _uniform(directions):
+def _uniform(directions, _blur):
     return np.ones(directions.shape[:-1])
 
 
-def _overcast(directions):
+def _overcast(directions, blur):
     up = directions[..., 2]
-    return np.where(up >= 0, (1 + 2 * up) / 3, GROUND_ALBEDO * 7 / 9)
+    above = _share_above(up, blur)
+    return above * (1 + 2 * np.maximum(up, 0)) / 3 + (1 - above) * (GROUND_ALBEDO * 7 / 9)
 
 
-def _studio(directions):
+def _studio(directions, blur):
     up = directions[..., 2]
-    floor = 0.15 + 0.4 * up**2  # lit by the boxes where it is near
-    level = np.where(up >= 0, 0.12 + 0.30 * np.exp(np.minimum(up, -up) / 0.35), floor)
+    above = _share_above(up, blur)
+    wall = 0.12 + 0.30 * np.exp(np.minimum(-up, 0) / 0.35)
+    floor = 0.15 + 0.4 * np.minimum(up, 0) ** 2  # lit by the boxes where it is near
+    level = above * wall + (1 - above) * floor
     for frame, half, bright in _soft_boxes():
-        level += bright * _soft_box(directions @ frame.astype(directions.dtype), half)
+        level += bright * _soft_box(directions @ frame.astype(directions.dtype), half, blur)
     return level
+
+
+def _share_above(up, blur):
+    """How much of what is averaged over `blur` lies above the horizon."""
+    return np.clip(up / np.maximum(blur, 1e-9) + 0.5, 0, 1)
+
+
+def _covered(place, low: float, high: float, blur):
+    """How much of a stretch of length `blur` about `place` lies between two bounds."""
+    blur = np.maximum(blur, 1e-9)
+    return np.maximum(np.minimum(high, place + blur / 2) - np.maximum(low, place - blur / 2), 0) / blur
 
 
 @lru_cache(maxsize=1)
@@ -114,15 +131,16 @@ def _soft_boxes():
     return found
 
 
-def _soft_box(place, half):
+def _soft_box(place, half, blur):
     """0..1: a rectangle with soft edges that is a quarter darker at its corners, as a lamp behind a cloth makes it."""
     ahead = np.maximum(place[..., 0], 1e-9)  # behind, nothing is within its sides
-    x, y = np.abs(place[..., 1]) / (half[0] * ahead), np.abs(place[..., 2]) / (half[1] * ahead)
-    inside = np.clip((1 - x) * (half[0] / EDGE) + 0.5, 0, 1) * np.clip((1 - y) * (half[1] / EDGE) + 0.5, 0, 1)
-    return inside * (1 - 0.125 * (np.minimum(x, 1) ** 2 + np.minimum(y, 1) ** 2))
+    x, y = np.abs(place[..., 1]) / ahead, np.abs(place[..., 2]) / ahead
+    edge = np.maximum(blur / np.maximum(ahead, 0.1), EDGE)
+    inside = _covered(x, -half[0], half[0], edge) * _covered(y, -half[1], half[1], edge)
+    return inside * (1 - 0.125 * (np.minimum(x / half[0], 1) ** 2 + np.minimum(y / half[1], 1) ** 2))
 
 
-def _room(directions):
+def _room(directions, blur):
     with np.errstate(divide="ignore"):
         far = np.where(directions > 0, ROOM_HIGH, ROOM_LOW) / directions
     side = np.argmin(np.where(np.isfinite(far), far, np.inf), axis=-1)
@@ -139,19 +157,22 @@ def _room(directions):
     below = directions[..., 2] < 0
     albedo = np.select([side < 2, below], [WALLS["wall"], WALLS["floor"]], WALLS["ceiling"])
     level = albedo * (given / pi + ROUND)
-    pane = _pane(directions)
+    pane = _pane(directions, blur)
     # the sky outside, an overcast one, above houses up to six degrees
     outside = np.where(directions[..., 2] > sin(radians(6.0)), (1 + 2 * directions[..., 2]) / 1.8, 0.15)
-    return np.where(pane, outside, level)
+    return pane * outside + (1 - pane) * level
 
 
-def _pane(directions):
-    """Whether a direction leads out of the window of the room: between its sides and past the bars of its frame."""
+def _pane(directions, blur):
+    """How much of a direction leads out of the window of the room: between its sides and past the bars of its frame."""
     (left, right), (sill, top) = WINDOW
-    toward = np.minimum(directions[..., 1], -1e-9)
-    x, z = directions[..., 0] / toward * ROOM_LOW[1], directions[..., 2] / toward * ROOM_LOW[1]
-    between = (x > left) & (x < right) & (z > sill) & (z < top) & (directions[..., 1] < 0)
-    return between & (np.abs(x - (left + right) / 2) > BAR) & (np.abs(z - (sill + top) / 2) > BAR)
+    toward = np.maximum(-directions[..., 1], 1e-9) / -ROOM_LOW[1]
+    x, z, blur = directions[..., 0] / toward, directions[..., 2] / toward, blur / np.maximum(toward, 0.05)
+    share = 1.0
+    for place, low, high in ((x, left, right), (z, sill, top)):
+        bar = (low + high) / 2
+        share = share * (_covered(place, low, high, blur) - _covered(place, bar - BAR, bar + BAR, blur))
+    return np.where(directions[..., 1] < 0, share, 0.0)
 
 
 _FORMS = {"uniform": _uniform, "overcast": _overcast, "studio": _studio, "room": _room}
@@ -164,7 +185,7 @@ def _tint_of(kind: str, directions) -> np.ndarray:
         return named["neutral"]
     if kind == "studio":
         return np.where(directions[..., 2:] >= 0, named["neutral"], named["warm"])
-    cool = _pane(directions) if kind == "room" else directions[..., 2] >= 0
+    cool = _pane(directions, 0.0) > 0.5 if kind == "room" else directions[..., 2] >= 0
     return np.where(cool[..., None], named["sky"], named["earth" if kind == "overcast" else "warm"])
 
 
@@ -183,7 +204,7 @@ def _brightest_side(kind: str) -> float:
     if kind == "uniform":
         return pi
     directions, share = _all_directions()
-    level = _FORMS[kind](directions) * share
+    level = _FORMS[kind](directions, 0.0) * share
     best, received = np.array([0.0, 0.0, 1.0]), 0.0
     for step in (1.0, 0.08):  # all sides, then those about the best
         sides = np.concatenate([sphere.cap(best[None], step * pi, 200)[0], best[None]])

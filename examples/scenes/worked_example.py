@@ -163,15 +163,19 @@ def sampled(material: str, name: str, seed: int, model: Composite, disc: bool) -
     )
     light, camera = light_and_camera(material, name, seed)
     surface = Surface(model, values_of(material, 0.0 if disc else radius))
-    width = lobe_width(surface) if disc else 10.0  # no disc is wide beside that: one point
     view = (Quadrature if disc else Centres)(
-        where, seed, np.full(len(light), 1 / len(light)), camera, light[:, None], width
+        where, seed, np.full(len(light), 1 / len(light)), camera, light[:, None], lobe_width(surface)
     )
     return Picture(Features(surface), view)
 
 
 class Centres(Quadrature):
-    """Its mirror pairs are those of the lights' centres, not of the views."""
+    """Its lights are their centres, and its mirror pairs those of the centres, not of the views."""
+
+    @cached_property
+    def lit(self):
+        light = self.to_lights[:, 0]
+        return rows(Geometry.from_vectors(light, self.to_camera)), light[:, 2] * self.unit, np.arange(len(light))
 
     @cached_property
     def mirrored(self):
