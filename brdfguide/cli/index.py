@@ -28,13 +28,15 @@ def index(
     n: Annotated[float | None, Option("--n", help="Refractive index.")] = None,
     k: Annotated[float, Option("--k", min=0, help="Absorption index.")] = 0.0,
     wavelength_nm: Annotated[
-        float, Option("--wavelength-nm", min=100, max=20000, help="For entries of refractiveindex.info.")
-    ] = 550.0,
+        float | None,
+        Option(
+            "--wavelength-nm", min=100, max=20000, help="At this wavelength; of refractiveindex.info at 550 otherwise."
+        ),
+    ] = None,
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """Refractive index and normal reflectance, with what the usual simplifications cost."""
-    from ..physics import substances
     from ..report.documents import indices
     from ..report.text.indices import text
 
@@ -42,8 +44,8 @@ def index(
         raise InputError("give one of: a substance, --f0, --n")
     if n is None:
         refuse(context, "k", because="it goes with --n")
-    if material is None or substances.find(material):
-        refuse(context, "wavelength_nm", because="it is for entries of refractiveindex.info, and none is asked for")
+    if material is None:
+        refuse(context, "wavelength_nm", because="it goes with a substance, and none is asked for")
     if f0 is not None:
         document = indices.from_f0(f0)
     elif n is not None:
@@ -53,7 +55,7 @@ def index(
             raise InputError(f"k = {k:g}: an absorption index is at most {MOST_K:g}")
         document = indices.from_index(n, k)
     elif material is not None:
-        document = indices.named_index(material, wavelength_nm / 1000)
+        document = indices.named_index(material, None if wavelength_nm is None else wavelength_nm / 1000)
     else:
         document = indices.everything()
     answer(document, json, text)

@@ -21,11 +21,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import NoAnswer
-from . import substances
+from .substance_table import READ_AT_UM
 
 # [µm], of a measured channel with this name; X, Y, Z: the peaks of the CIE 1931 colour matching functions
 CHANNEL_UM = {"R": 0.610, "G": 0.550, "B": 0.465, "X": 0.600, "Y": 0.555, "Z": 0.446}
-SRGB_UM = substances.READ_AT_UM  # [µm], of the coefficients of linear sRGB
+SRGB_UM = READ_AT_UM  # [µm], of the coefficients of linear sRGB
 SEEN_UM = (0.38, 0.78)  # what the eye sees at all
 VISIBLE_UM = (0.45, 0.62)  # what channels must span for a colour: ours
 SRGB = {"r": 0, "red": 0, "g": 1, "green": 1, "b": 2, "blue": 2}

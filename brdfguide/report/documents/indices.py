@@ -28,21 +28,26 @@ def from_index(n: float, k: float) -> dict:
     return _document([_entry("given", n, k, None, "as given", metal=k > 0.5)], [])
 
 
-def named_index(name: str, wavelength: float) -> dict:
-    """A substance of the shipped table, else every author's value in refractiveindex.info."""
+USUAL_UM = 0.55  # where refractiveindex.info is asked unless told
+
+
+def named_index(name: str, wavelength: float | None) -> dict:
+    """A substance of the shipped table, else every author's value in refractiveindex.info; at a wavelength [µm], or
+    where its source was read. Raises InputError for a wavelength at which it is not known."""
     found = substances.find(name)
     if found:
         at = found.wavelength or (None,) * len(found.n)
         where = at if len(at) == len(found.n) else at * len(found.n)
-        rows = [
-            _entry(found.name, n, k, w, found.source, found.kind == "metal")
-            for n, k, w in zip(found.n, found.k, where, strict=True)
-        ]
+        values = list(zip(found.n, found.k, where, strict=True))
+        if wavelength is not None:
+            values = [substances.at_wavelength(found, wavelength)]
+        rows = [_entry(found.name, n, k, w, found.source, found.kind == "metal") for n, k, w in values]
         return _document(rows, [remark_on("alternative", found.note)] if found.note else [])
     if not refractiveindex_info.installed():
         known = [each.name for each in substances.SUBSTANCES]
         error = choices("substance", name, known)
         raise InputError(f"{error}; `pip install 'brdfguide[optics]'` adds several hundred by formula (Au, SiO2)")
+    wavelength = USUAL_UM if wavelength is None else wavelength
     entries, near = refractiveindex_info.find_entries(name, wavelength)
     if not entries:
         hint = (
