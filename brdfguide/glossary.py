@@ -40,6 +40,8 @@ WORDS = {
         "theta_i, theta_r": "angles of the light and of the view from the normal; 0 is straight down",
         "grazing": "light or view almost along the surface, near 90°",
         "growth 10 to 75 deg": "how much brighter the mirror direction is at 75° than at 10°: tells laws apart",
+        "75 over 10 deg": "the same of a recommended model: x6 means six times as bright; `image` is its mirror image",
+        "domain": "what the report's rules are made for: opaque surfaces with random bumps, the same from all sides",
         "emergence": "the angle from which on a mirror image appears on a rough surface",
         "gloss": "a glossmeter's units at 20, 60 or 85°: the mirror beam beside that of black glass, which has 100",
         "haze": "the share of the reflected light just outside the mirror direction",

@@ -88,7 +88,7 @@ def evidence_of(material: Material) -> Evidence | None:
         n_doubt=n_doubt,
         base=base,
         base_doubt=base_doubt,
-        coated=bool(base) and (material.coat == "clear" or material.subsurface == "lobe"),
+        coated=bool(base) and material.under_a_coat,
         albedo=albedo,
         albedo_doubt=albedo_doubt,
         wavelength=material.wavelength or emergence.WAVELENGTH,
@@ -155,8 +155,8 @@ def _stylus(material: Material) -> tuple[Observation, ...]:
 
 
 def _look(material: Material) -> tuple[Observation, ...]:
-    """The finish, as a soft reading of how much light stays sharp."""
-    if material.finish not in SHARPNESS:
+    """The finish, as a soft reading of how much light stays sharp; of what is coated it tells of the coat alone."""
+    if material.finish not in SHARPNESS or material.under_a_coat:
         return ()
     doubt = 0.05 if material.finish == "mirror" else HALF_A_CLASS
     aim = log(SHARPNESS[material.finish])

@@ -84,6 +84,11 @@ class Material:
         return replace(self, **new, filled_by={**self.filled_by, **dict.fromkeys(new, rule)})
 
     @property
+    def under_a_coat(self) -> bool:
+        """Whether a clear coat lies over a metal or over flakes, so that finish and gloss are above all the coat's."""
+        return self.subsurface == "lobe" or (self.kind == "metal" and self.coat == "clear")
+
+    @property
     def solid_angle(self) -> float:
         """Of the eye that looks for the mirror image [sr]: a 3 mm pupil at 0.6 m unless given."""
         viewing = self.viewing or {}

@@ -135,7 +135,7 @@ MODEL = Model(
     summary="half-vector lobe of two exponents over its own body: old scene files; loses light toward grazing",
     source="Ashikhmin and Shirley 2000",
     family="facets",
-    cannot="half of the light is missing at grazing; no mirror image",
+    cannot="half of the light is missing at grazing; shows no mirror image",
     from_facets=lambda facets: {
         "exponent_x": facets.half_exponent,
         "exponent_y": facets.half_exponent,

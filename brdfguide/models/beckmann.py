@@ -68,7 +68,7 @@ MODEL = Model(
     ),
     source="Beckmann and Spizzichino 1963; Smith 1967; Walter et al. 2007; Heitz 2014",
     family="facets",
-    cannot="no mirror image; no long tails",
+    cannot="shows no mirror image, and no faint glow far around the highlight",
     candidacy=Candidacy(80, bare=True, substitutes=True),
     formula=Formula(
         "{scale} * beckmann(ci, cr, q, {alpha}, {n}, {k})",

@@ -74,7 +74,7 @@ MODEL = Model(
     breaks=TURNS,
     source="Beckmann and Spizzichino 1963; Smith 1967; Heitz 2014",
     family="facets",
-    cannot="no mirror image; no long tails",
+    cannot="shows no mirror image, and no faint glow far around the highlight",
     from_facets=lambda facets: {**widths_of(facets), "n": facets.n, "k": facets.k},
     candidacy=Candidacy(85, grained=True),
     grain=BY_WIDTHS,

@@ -60,7 +60,7 @@ MODEL = Model(
     ),
     source="Blinn 1977",
     family="Phong",
-    cannot="does not grow toward grazing; no Fresnel, no mirror image",
+    cannot="does not brighten toward grazing; shows no mirror image",
     candidacy=Candidacy(30, substitutes=True),
     from_facets=lambda facets: {"ks": facets.f0, "exponent": facets.half_exponent},
     formula=Formula(

@@ -73,7 +73,7 @@ MODEL = Model(
     summary="a clear coat over the laws after it: coated:lambertian darkens, coated:flakes is metallic paint",
     source="Fresnel; Saunderson 1942; Weidlich and Wilkie 2007",
     family="coat",
-    cannot="light that steep facets keep inside, and films so thin that they interfere",
+    cannot="leaves out light that steep bumps keep inside; no films thin enough for rainbow colours",
     formula=Formula(
         "",
         (

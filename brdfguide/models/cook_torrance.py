@@ -86,7 +86,7 @@ MODEL = Model(
     ),
     source="Cook and Torrance 1982",
     family="facets",
-    cannot="no mirror image; angular masking",
+    cannot="shows no mirror image; its shadows set in with a sharp bend",
     candidacy=Candidacy(70, bare=True, substitutes=True),
     formula=Formula(
         "{scale} * cook_torrance(ci, cr, q, {alpha}, {n}, {k})",

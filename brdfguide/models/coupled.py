@@ -58,7 +58,7 @@ MODEL = Model(
     extremes=(Extreme("both 0.0001° from grazing", at(89.9999, 89.9999), {"albedo": 1.0}),),
     source="Shirley et al. 1997",
     family="body",
-    cannot="no lobe toward the mirror direction",
+    cannot="no highlight: that takes a second term",
     formula=Formula(
         "coupled(ci, cr, {albedo})",
         (

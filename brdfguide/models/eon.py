@@ -108,7 +108,7 @@ MODEL = Model(
     ),
     source="Portsmouth, Kutz and Hill 2025",
     family="body",
-    cannot="no lobe toward the mirror direction",
+    cannot="no highlight: that takes a second term",
     formula=Formula(
         "eon(ci, cr, p, {albedo}, {roughness})",
         (

@@ -52,7 +52,7 @@ MODEL = Model(
     ),
     source="Heitz, Dupuy, Crassin and Dachsbacher 2015",
     family="flakes",
-    cannot="a Fresnel factor of its own; light that steep flakes keep under the coat",
+    cannot="flakes reflect alike at all angles; leaves out light that steep flakes keep under the coat",
     candidacy=Candidacy(110, grown="coated", adds="flakes under a clear coat in place of the lobes"),
     from_facets=lambda facets: {"flake": facets.f0, "tilt": facets.alpha},
     formula=Formula("{flake} * ggx_shape(ci, cr, q, {tilt})", (SHAPE,)),

@@ -48,6 +48,6 @@ MODEL = Model(
     ),
     source="Beckmann and Spizzichino 1963; Heitz, Dupuy, Crassin and Dachsbacher 2015",
     family="flakes",
-    cannot="a Fresnel factor of its own; light that steep flakes keep under the coat",
+    cannot="flakes reflect alike at all angles; leaves out light that steep flakes keep under the coat",
     from_facets=lambda facets: {"flake": facets.f0, "tilt": facets.alpha},
 )

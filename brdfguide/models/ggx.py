@@ -68,7 +68,7 @@ MODEL = Model(
     ),
     source="Walter et al. 2007; Trowbridge and Reitz 1975; Heitz 2014",
     family="facets",
-    cannot="no mirror image; loses up to 10 % at large alpha",
+    cannot="shows no mirror image; where it is very rough (alpha near 1) up to 10 % of the light is missing",
     candidacy=Candidacy(90, bare=True, substitutes=True),
     formula=Formula(
         "{scale} * ggx(ci, cr, q, {alpha}, {n}, {k})",

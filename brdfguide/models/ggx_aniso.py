@@ -80,7 +80,7 @@ MODEL = Model(
     breaks=TURNS,
     source="Trowbridge and Reitz 1975; Burley 2012; Heitz 2014",
     family="facets",
-    cannot="no mirror image; loses up to 10 % at large alpha",
+    cannot="shows no mirror image; where it is very rough (alpha near 1) up to 10 % of the light is missing",
     from_facets=lambda facets: {**widths_of(facets), "n": facets.n, "k": facets.k},
     candidacy=Candidacy(95, grained=True),
     grain=BY_WIDTHS,

@@ -144,7 +144,7 @@ MODEL = Model(
     ),
     source="Kulla and Conty 2017; Hill 2018",
     family="facets",
-    cannot="no mirror image; what several facets send back is taken as diffuse",
+    cannot="shows no mirror image; light that meets several facets is taken to leave alike in all directions",
     beyond_facets=lambda *, alpha, **_: (
         "light between facets has no counterpart" if np.any(np.greater(alpha, 0.2)) else ""
     ),

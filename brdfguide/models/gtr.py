@@ -169,5 +169,5 @@ MODEL = Model(
     ),
     source="Burley 2012; Smith 1967; Heitz 2014",
     family="facets",
-    cannot="no mirror image; its far tail is GGX's; loses up to 10 % at large alpha",
+    cannot="shows no mirror image; very rough, up to 10 % of the light is missing",
 )

@@ -152,7 +152,7 @@ MODEL = Model(
     summary="wave optics, shadowing and an emerging mirror; slightly rough to rough metals and dielectrics, any gloss",
     source="He, Torrance, Sillion and Greenberg 1991",
     family="wave optics",
-    cannot="one interface, Gaussian heights; an isotropic average of anything turned; slow",
+    cannot="one surface without a coat, bumps of the common (Gaussian) kind, the same from all sides; slow to evaluate",
     aliases=("he",),
     candidacy=Candidacy(100, bare=True),
     beyond_facets=lambda **_: "wave effects, the lobe's change of shape with angle and wavelength, become one shape",

@@ -156,7 +156,7 @@ MODEL = Model(
     summary="wave optics of brushed surfaces: shadows, Fresnel and the emerging mirror, two lengths; ours, unpublished",
     source="ours, after He et al. 1991 and Stam 1999",
     family="wave optics",
-    cannot="one interface, Gaussian heights; slow; no paper has it",
+    cannot="one surface without a coat, bumps of the common (Gaussian) kind; slow to evaluate; no paper has it",
     beyond_facets=lambda **_: "wave effects, the lobe's change of shape with angle and wavelength, become one shape",
     candidacy=Candidacy(105, grained=True),
     grain=BY_RATIO,

@@ -34,7 +34,7 @@ MODEL = Model(
     extremes=(Extreme("0.01° from grazing", at(89.99, 89.99), {"albedo": 1.0}, f=0.3183098861837907),),
     source="Lambert 1760",
     family="body",
-    cannot="no rise toward grazing",
+    cannot="no highlight: it looks equally bright from everywhere",
     candidacy=Candidacy(10, bare=True),
     formula=Formula("lambertian({albedo})", (("lambertian", "albedo", "albedo / PI"),)),
 )

@@ -54,7 +54,7 @@ MODEL = Model(
     extremes=(Extreme("no roughness, 0.01° from grazing", at(89.99, 89.99), {"sigma": 0.0}, f=0.0),),
     source="Fresnel; Davies 1954; Westin et al. 2004, Eq. 1",
     family="mirror",
-    cannot="no lobe: small lights show as points, and a slightly rough surface scatters",
+    cannot="no blur: a small lamp shows as a point, and what a slightly rough surface scatters is missing",
     formula=Formula(
         "",
         (

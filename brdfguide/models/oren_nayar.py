@@ -121,7 +121,7 @@ MODEL = Model(
     breaks={"energy": "tan β sends more than 1 beyond 60°: 1.05 at grazing for albedo 1, spread 0.3"},
     source="Oren and Nayar 1994",
     family="body",
-    cannot="no lobe toward the mirror direction",
+    cannot="no highlight: that takes a second term",
     candidacy=Candidacy(
         20,
         under=("ggx",),

@@ -62,7 +62,7 @@ MODEL = Model(
     ),
     source="Lewis 1993",
     family="Phong",
-    cannot="does not grow toward grazing at all; no Fresnel, no mirror image",
+    cannot="does not brighten toward grazing at all; shows no mirror image",
     candidacy=Candidacy(20, substitutes=True),
     from_facets=lambda facets: {"ks": facets.f0, "exponent": facets.mirror_exponent},
     formula=Formula(

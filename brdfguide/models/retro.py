@@ -58,7 +58,7 @@ MODEL = Model(
     ),
     source="Trowbridge and Reitz 1975, turned: ours",
     family="retro-reflection",
-    cannot="no mirror side, no Fresnel: it stands beside other lobes",
+    cannot="no highlight on the mirror's side: it stands beside other lobes",
     from_facets=lambda facets: {"rho": facets.f0, "alpha": facets.alpha},
     candidacy=Candidacy(120, grown="beside", adds="a lobe back toward the light"),
     beyond_facets=lambda **_: "a lobe back toward the light has no counterpart",

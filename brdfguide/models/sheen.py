@@ -65,7 +65,7 @@ MODEL = Model(
     ),
     source="Estevez and Kulla 2017; Neubelt and Pettineo 2013",
     family="fabric",
-    cannot="no weave, no mirror side: it stands beside a body",
+    cannot="no weave, no highlight: it stands beside a body",
     from_facets=lambda facets: {"rho": (USUAL_RHO,) * len(facets.albedo or (0.0,)), "spread": USUAL_SPREAD},
     beyond_facets=lambda **_: "a rim that fibres make has no counterpart",
     formula=Formula(

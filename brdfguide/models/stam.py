@@ -129,7 +129,7 @@ MODEL = Model(
     source="Stam 1999",
     family="wave optics",
     aliases=("kajiya",),
-    cannot="no shadows and a constant reflectance: too bright toward grazing",
+    cannot="no shadows between bumps and one reflectance for all angles: too bright toward grazing",
     formula=Formula(
         "stam(ci, cr, q, {sigma_waves}, {tau_waves}, {f0})",
         (

@@ -196,7 +196,7 @@ MODEL = Model(
     ),
     source="Ribardière, Bringier, Meneveaux and Simonot 2017",
     family="facets",
-    cannot="no mirror image; loses up to 10 % at large alpha",
+    cannot="shows no mirror image; where it is very rough (alpha near 1) up to 10 % of the light is missing",
     candidacy=Candidacy(
         95, bare=True, contains={"ggx": {"g": 2.0}, "beckmann": {"g": 30.0}}, adds="a tail of free length"
     ),

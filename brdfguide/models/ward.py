@@ -63,7 +63,7 @@ MODEL = Model(
     breaks={"energy": "√(cos θi cos θr) sends more than 1 within 0.5° of grazing once alpha ≥ 0.2"},
     source="Ward 1992",
     family="Ward",
-    cannot="one fixed growth toward grazing, whatever the index; no mirror image",
+    cannot="brightens toward grazing in one fixed way, whatever the material; shows no mirror image",
     candidacy=Candidacy(40, substitutes=True),
     from_facets=lambda facets: {"rho_s": facets.f0, "alpha": facets.alpha},
     formula=Formula(

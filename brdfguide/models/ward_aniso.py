@@ -51,7 +51,7 @@ MODEL = Model(
     summary="Ward with a grain: cheap, for published fits of brushed metals; fixed growth toward grazing",
     source="Ward 1992",
     family="Ward",
-    cannot="one fixed growth toward grazing, whatever the index; no mirror image",
+    cannot="brightens toward grazing in one fixed way, whatever the material; shows no mirror image",
     from_facets=grained_from_facets,
     grain=BY_WIDTHS,
 )

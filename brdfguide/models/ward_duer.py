@@ -59,7 +59,7 @@ MODEL = Model(
     breaks={"energy": "1/(cos θi cos θr) sends more than 1 beyond 80°: 3.4 at 89° for alpha 0.2"},
     source="Dür 2006",
     family="Ward",
-    cannot="sends back more than it gets beyond 80°; no Fresnel, no mirror image",
+    cannot="sends back more light than it gets beyond 80°; the same reflectance at all angles; no mirror image",
     from_facets=lambda facets: {"rho_s": facets.f0, "alpha": facets.alpha},
     formula=Formula(
         "ward_duer(ci, cr, q, {rho_s}, {alpha})",

@@ -50,7 +50,7 @@ MODEL = Model(
     summary="Ward-Dür with a grain; gains energy toward grazing: for published fits, else use ward-gmd-aniso",
     source="Dür 2006",
     family="Ward",
-    cannot="sends back more than it gets beyond 80°; no Fresnel, no mirror image",
+    cannot="sends back more light than it gets beyond 80°; the same reflectance at all angles; no mirror image",
     from_facets=grained_from_facets,
     grain=BY_WIDTHS,
 )

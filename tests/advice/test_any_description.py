@@ -11,6 +11,8 @@ from brdfguide.errors import InputError
 from brdfguide.report.documents.recommendation import document
 from brdfguide.report.text.recommendation import text
 
+from .coherence import faults
+
 NAMES = ("brass", "paint", "silicon", "water", "unobtainium", "gold", "wood", "steel paint", "germanium")
 
 
@@ -70,3 +72,9 @@ def test_it_is_answered_or_refused_in_words_seed(seed):
     assert text(said, explain=True)
     if made.kind == "metal":
         assert not any(term.model.is_body for each in found.candidates for term in each.model.terms)
+
+
+@pytest.mark.parametrize("seed", [10_008, 10_011, 10_024, 10_043])
+def test_an_answer_hangs_together_seed(seed):
+    """A sample of `benchmarks/descriptions.py`."""
+    assert list(faults(material.parse_material(json.dumps(drawn(seed))))) == []

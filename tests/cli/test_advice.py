@@ -83,7 +83,8 @@ def test_a_description_on_standard_input():
 
 def test_outside_the_domain_there_is_no_recommendation_unless_asked_for():
     done = run("recommend", "-", stdin="structure: hair", status=1)
-    assert "outside the guide's domain: hair is no height field" in done.stderr and "needs a fibre model" in done.stdout
+    assert "outside the guide's domain: hair: not one surface with bumps" in done.stderr
+    assert "needs a fibre model" in done.stdout
     assert answer("recommend", "-", stdin="structure: hair", status=1)["candidates"] == []
     assert answer("recommend", "-", "--anyway", stdin="structure: hair")["candidates"]
 

@@ -4,11 +4,15 @@ The most complex model is never preferred for being complex: the report's metall
 """
 
 from math import degrees, pi
+from typing import cast
 
+from ...physics import gloss
+from ..inference import Inference
 from ..material import Material, said_to_be_grained
 from ..start_values import GRAIN
 from .guideline import Advice, rule
 
+SURE = 3.0  # repeatabilities of a glossmeter by which a coat must miss a mirror's reading (ours)
 BRIGHT = 0.5  # albedo from which on light that a coat sends down again counts: a fifth of it at n 1.5 (ours)
 
 SAMPLES = {
@@ -90,9 +94,10 @@ def high_gloss(material: Material) -> Advice | None:
     if material.finish != "high gloss" or material.subsurface == "lobe" or material.kind not in ("metal", "dielectric"):
         return None
     metal = material.kind == "metal"
-    other = "; Stam's model is as good on metals, with F constant" if metal else ""
+    other = "; Stam's is as good on metals" if metal else ""
     names = (f"{body(material)}he-torrance", f"{body(material)}ggx", f"{body(material)}beckmann", *["stam"] * metal)
-    return Advice(f"He-Torrance, which holds lobe and mirror image together{other}", "a high gloss", prefers=names)
+    says = f"He-Torrance's law, which has the blurred highlight and the sharp mirror image together{other}"
+    return Advice(says, "a high gloss", prefers=names)
 
 
 @rule("4.1, 5.2")
@@ -103,17 +108,17 @@ def low_gloss_metal(material: Material) -> Advice | None:
     names = ("ward", "he-torrance", "ggx", "beckmann")
     if material.emerges or waves_show(material):
         says = (
-            "He-Torrance, since a mirror image emerges"
+            "He-Torrance's law, since a mirror image shows at low angles"
             if material.emerges
-            else "He-Torrance, since sigma is near the wavelength"
+            else "He-Torrance's law, since the roughness is near the wavelength of light"
         )
         return Advice(
-            f"{says}; Ward is enough for the lobe alone",
+            f"{says}; Ward's law is enough for the highlight alone",
             "a metal below high gloss",
             prefers=("he-torrance", "ward", "ggx"),
         )
     return Advice(
-        "Ward; facet lobes grow more toward grazing, as metals do",
+        "Ward's law; laws of small facets brighten more toward grazing, where this metal is to do so",
         "a metal below high gloss, no mirror image known",
         prefers=(*names, *["ggx-ms"] * (material.finish == "matt")),
     )
@@ -126,31 +131,51 @@ def low_gloss_dielectric(material: Material) -> Advice | None:
         return None
     drops = dict.fromkeys(
         ("ward", "phong", "phong-lewis", "blinn"),
-        "grows too little toward grazing for a dielectric (sections 4.2, 4.3)",
+        "its highlight brightens too little toward grazing for what is no metal",
     )
     if waves_show(material):
         says = (
-            "He-Torrance, since a mirror image emerges"
+            "He-Torrance's law, since a mirror image shows at low angles"
             if material.emerges
-            else "He-Torrance, since sigma is near the wavelength"
+            else "He-Torrance's law, since the roughness is near the wavelength of light"
         )
         lobes = ("he-torrance", "ggx", "lafortune")
     elif material.filled_by.get("sigma") == "roughness_of_all_readings":
-        says = "He-Torrance, with the numbers that the readings gave"
+        says = "He-Torrance's law, with the numbers that the readings gave"
         lobes = ("he-torrance", "ggx", "lafortune")
     elif material.finish == "matt" and material.subsurface == "lambertian":
-        says = "GGX, with Fresnel's rise; on paper Lafortune's lobe fitted best, but its numbers want a measurement"
+        says = (
+            "GGX, which brightens toward grazing as the index says; on the report's paper Lafortune's law fitted best, "
+            "but its numbers take a measurement"
+        )
         lobes = ("ggx", "lafortune", "he-torrance")
     else:
         known = (
-            "at a sigma so far above the wavelength He-Torrance is the same surface"
+            "with roughness so far above the wavelength of light He-Torrance's law is the same"
             if material.sigma
-            else "He-Torrance needs a sigma, which nothing observed tells"
+            else "He-Torrance's law would need the height of the roughness (sigma), which nothing observed tells"
         )
-        says = f"a facet lobe with Fresnel's factor; {known}"
+        says = f"GGX, a highlight of small facets that brightens toward grazing as the index says; {known}"
         lobes = ("ggx", "he-torrance", "lafortune")
     names = [f"{body(material)}{lobe}" for lobe in lobes]
     return Advice(says, "a dielectric below high gloss", prefers=tuple(names), drops=drops)
+
+
+def _less_than_a_mirror(material: Material) -> str:
+    """The gloss reading that lies most below that of a smooth surface of this index; "" where none does."""
+    if not material.gloss or material.n is None or "alpha" not in material.filled_by:
+        return ""
+    n, white = material.n[len(material.n) // 2], sum(material.albedo or (0.0,)) / len(material.albedo or (0.0,))
+    smooth = {angle: gloss.mirror_units(angle, n) + white * gloss.DIFFUSE[angle] for angle in material.gloss}
+    angle = min(material.gloss, key=lambda each: material.gloss[each] / smooth[each])
+    if smooth[angle] - material.gloss[angle] <= SURE * gloss.tolerance(smooth[angle]):
+        return ""
+    return f"its gloss of {material.gloss[angle]:g} at {angle}° is less than the {smooth[angle]:.0f} of a smooth one"
+
+
+def _met_by(material: Material) -> str:
+    """The law that gives the readings, of those that inference tries."""
+    return cast(Inference, material.inference).law.name if material.inference else "ggx"
 
 
 @rule("4.5")
@@ -160,17 +185,24 @@ def coated(material: Material) -> Advice | None:
         return None
     if material.kind == "metal":
         return Advice(
-            "the metal's lobe under the coat, seen through it, and the coat's mirror",
+            "the metal's highlight, seen through the coat, and the coat's own mirror image",
             "a clear coat on a metal",
             prefers=("coated:ggx", "ward+mirror", "ggx+mirror"),
         )
     bright = material.subsurface == "lambertian" and max(material.albedo or (0.0,)) >= BRIGHT
     darkened = ("coated:lambertian",) if material.subsurface == "lambertian" else ()
     plain = (f"{body(material)}mirror", f"{body(material)}he-torrance")
+    dull = _less_than_a_mirror(material)
+    if dull:
+        says = f"the coat is no mirror: {dull}; its blurred highlight over the body"
+        return Advice(
+            says, "a clear coat that is slightly rough", prefers=(f"{body(material)}{_met_by(material)}", *plain)
+        )
     return Advice(
-        "the coat's mirror over the body, whose light it sends down again: bright bodies gain most by that"
+        "the coat's mirror image over the body; the coat sends part of the body's light down again, which counts where "
+        "the body is bright"
         if bright
-        else "the coat's mirror over the body",
+        else "the coat's mirror image over the body",
         "a clear coat over a bright body" if bright else "a clear coat",
         prefers=(*darkened, *plain) if bright else (*plain, *darkened),
     )
@@ -227,7 +259,10 @@ def seen_through_rough_glass(material: Material) -> Advice | None:
 def nearest_sample(material: Material) -> Advice | None:
     """Compare with the report's five surfaces."""
     sample, why = sample_like(material)
-    return Advice(f"nearest of the five: {sample}", why) if sample else None
+    if sample is None:
+        return None
+    what = SAMPLES[sample].partition(": ")[2]
+    return Advice(f"of the five surfaces that the report measured it is most like the {sample} ({what})", why)
 
 
 def sample_like(material: Material) -> tuple[str | None, str]:
@@ -267,7 +302,7 @@ def nearest_is_far(material: Material) -> Advice | None:
     ):
         return None
     return Advice(
-        "none of the report's five surfaces is like this one; the advice rests on the physics of section 3 alone",
+        "none of the five surfaces that the report measured is like this one: the advice rests on physics alone",
         "a dielectric without a body, or a glossy one",
     )
 

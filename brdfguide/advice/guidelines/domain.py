@@ -58,9 +58,9 @@ def height_field(material: Material) -> Advice | None:
         return None
     status = "flagged" if material.structure in ("granular", "cloth", "velvet") else "outside"
     fibres = material.structure in ("cloth", "velvet")
-    rim = "; its fibres' rim by Charlie's sheen over a body, of usual width and strength" if fibres else ""
+    rim = "; the glow at its rim by Charlie's sheen over a body, of usual width and strength" if fibres else ""
     return Advice(
-        f"{material.structure} is no height field{rim}",
+        f"{material.structure}: not one surface with bumps, which such laws are made for{rim}",
         f"structure: {material.structure}",
         domain=status,
         needs=needs[material.structure],
@@ -127,7 +127,7 @@ def moderate_slopes(material: Material) -> Advice | None:
     """Smooth to quite rough, but not sandpaper, unglazed ceramic or flat house paint (D5)."""
     if not material.steep:
         return None
-    says = "slopes too large for rough-surface lobes: facets shadow each other and light meets several"
+    says = "bumps too steep for such laws: they shadow each other, and light meets several before it leaves"
     return Advice(
         says,
         "steep, like sandpaper or flat house paint",
@@ -192,7 +192,7 @@ def in_plane_evidence(material: Material) -> Advice | None:
     if not material.off_plane:
         return None
     return Advice(
-        "the comparison behind this advice was made in the plane of incidence only",
+        "the measurements behind this advice were made with light, eye and normal in one plane only",
         "seen out of the plane",
         domain="flagged",
         needs="measurements over the hemisphere",

@@ -30,8 +30,8 @@ def slopes_of_stylus(material: Material) -> Advice | None:
     if slope is None:
         return None
     says = (
-        f"sigma/tau = {slope:.3g} is an rms slope of {sqrt(2) * slope:.3g} along a line, a mean slope of "
-        f"{sqrt(pi) * slope:.3g}, alpha = {2 * slope:.3g}"
+        f"sigma/tau = {slope:.3g}, which other instruments print as an rms slope of {sqrt(2) * slope:.3g} (Rdq) or "
+        f"{2 * slope:.3g} (Sdq), and shaders as alpha = {2 * slope:.3g}"
     )
     band = "no cut-off given; light sees the finest, steepest scale, which a long cut-off hides"
     return Advice(says, f"stylus; {f'cut-off {material.cutoff:.4g} µm' if material.cutoff else band}")
@@ -79,7 +79,7 @@ def formula_beside_criterion(material: Material) -> Advice | None:
         return None
     exact, _ = emergence.crossing(angle, material.slope, wavelength(material), material.solid_angle)
     return Advice(
-        f"Eq. 3 with Table 2 gives sigma {sigma:.3g} µm, tau {tau:.3g} µm, {sigma / exact - 1:+.0%} from the criterion",
+        f"the report's short formula would give sigma {sigma:.3g} µm, tau {tau:.3g} µm: {sigma / exact - 1:+.0%}",
         f"emergence at {angle:g}°",
     )
 
@@ -129,7 +129,7 @@ def mirror_that_never_shows(material: Material) -> Advice | None:
 @rule("5.2")
 def finish_against_width(material: Material) -> Advice | None:
     """The look and the measured width must be of one sort."""
-    if material.finish is None or material.alpha is None:
+    if material.finish is None or material.alpha is None or material.under_a_coat:
         return None
     if material.sigma is not None and (4 * pi * material.sigma / wavelength(material)) ** 2 < 20:
         return None  # a mirror image covers the lobe, whose width the eye does not see
@@ -183,8 +183,10 @@ def smooth_limit(material: Material) -> Advice | None:
     g = (4 * pi * material.sigma / wavelength(material)) ** 2
     at_limit = 1 - exp(-((4 * pi * SMOOTH_UM / wavelength(material)) ** 2))
     says = (
-        f"sigma {material.sigma:.3g} µm takes {1 - exp(-g):.1%} from the mirror at normal incidence; the report's "
-        f"limit of {SMOOTH_UM} µm takes {at_limit:.1%}, and 1 % is lost at {_sigma_for(0.01, material):.4f} µm"
+        f"roughness of {material.sigma:.3g} µm takes {1 - exp(-g):.1%} of the light from the mirror image, seen "
+        f"straight on; what the report calls smooth, {SMOOTH_UM} µm, takes {at_limit:.1%}, and "
+        f"{_sigma_for(0.01, material):.4f} µm "
+        f"would take 1 %"
     )
     return Advice(says, "Eq. 1")
 
@@ -200,7 +202,8 @@ def only_slope_matters(material: Material) -> Advice | None:
     ):
         return None
     return Advice(
-        "so rough that only sigma/tau shows; a cheaper facet lobe of alpha = 2 sigma/tau is the same surface",
+        "so rough that only its slope, sigma/tau, shows: GGX or Beckmann's law of alpha = 2 sigma/tau looks the same "
+        "and is cheaper",
         f"sigma {material.sigma:.3g} µm against {1000 * wavelength(material):g} nm",
     )
 

@@ -25,6 +25,8 @@ def roughness_of_all_readings(material: Material) -> Advice | None:
         return None
     found = infer(evidence)
     law, numbers = found.law, found.law.numbers
+    if material.subsurface == "lobe":
+        return _coat_of_flakes(found)
     sets: dict = {"inference": found, "alpha": numbers["alpha"].value, "slope": numbers["slope"].value}
     if law.name == "he-torrance":
         sets |= {"sigma": numbers["sigma"].value, "tau": numbers["tau"].value}
@@ -37,6 +39,18 @@ def roughness_of_all_readings(material: Material) -> Advice | None:
         shown.append(f"n {words(numbers['n'])}")
     says = f"{', '.join(shown)}, by {LAWS[law.name]}{_deciders(law)}"
     return Advice(says, _readings(found.evidence), sets=sets)
+
+
+def _coat_of_flakes(found: Inference) -> Advice | None:
+    """What readings on flakes under a coat tell: the coat's index, where they bear on it; no width of the flakes."""
+    n = found.law.numbers.get("n")
+    if n is None or not _bears(n):
+        return None
+    return Advice(
+        f"n {words(n)} of the coat, whose mirror image is nearly all that was read",
+        _readings(found.evidence),
+        sets={"inference": found, "n": (n.value,), "k": (0.0,)},
+    )
 
 
 def _bears(n: Estimate) -> bool:

@@ -29,6 +29,17 @@ MORE = (
 )
 
 
+KEY = (
+    "75 over 10 deg: how much brighter the highlight, and the mirror image, is with the lamp at 75 degrees than at 10; "
+    "gloss: what a glossmeter would read at 20, 60 and 85 degrees"
+)
+REACH = {  # what the guide's domain is to this surface
+    "inside": "the guide's rules are made for such surfaces",
+    "flagged": "the guide's rules reach it in part",
+    "outside": "outside what the guide's rules are made for",
+}
+
+
 def _item(said: str) -> str:
     return folded(said, "  ", "    ")
 
@@ -36,8 +47,7 @@ def _item(said: str) -> str:
 def _domain(document: dict) -> str:
     """What the surface is, and whether the guide speaks of such ones."""
     domain, verdict = document["domain"], document["verdict"]
-    status = "flagged within" if domain["status"] == "flagged" else domain["status"]
-    head = f"{document['name'] or 'material'}: {verdict['kind']} ({verdict['evidence']}); {status} the guide's domain"
+    head = f"{document['name'] or 'material'}: {verdict['kind']} ({verdict['evidence']}); {REACH[domain['status']]}"
     lines = [folded(head, "", "  ")]
     for each in domain["reasons"]:
         needs = f"; needs {each['needs']}" if each["needs"] else ""
@@ -70,9 +80,7 @@ def _trust(document: dict) -> str:
     if document["conflicts"]:
         said.append("the description contradicts itself")
     if document["domain"]["status"] != "inside":
-        said.append(
-            f"{'flagged within' if document['domain']['status'] == 'flagged' else 'outside'} the guide's domain"
-        )
+        said.append(REACH[document["domain"]["status"]])
     return "; ".join(said)
 
 
@@ -82,18 +90,18 @@ def _candidates(found: list[dict], full: bool) -> str:
         return ""
     timed = "time_per_sample_ns" in found[0]
     last = ("start values",) if full else ()
-    header = ("candidate", "rises 10 to 75 deg", "gloss 20/60/85", *(("ns",) if timed else ()), *last)
+    header = ("candidate", "75 over 10 deg", "gloss 20/60/85", *(("ns",) if timed else ()), *last)
     rows = []
     for each in found:
         time = (f"{each['time_per_sample_ns']:.0f}",) if timed else ()
         rows.append((each["model"], _growth(each), _gloss(each), *time, *((_values(each),) if full else ())))
-    return columns(header, rows, right=(3,) if timed else ())
+    return columns(header, rows, right=(3,) if timed else ()) + "\n" + folded(KEY, "", "  ")
 
 
 def _shows(shows: dict) -> list[str]:
     """From which change on the eye would notice each number."""
     said = [f"{percent_words(share)} of {key}" for key, share in shows.items() if share is not None]
-    return [f"for the eye: it takes {', '.join(said)} to show"] if said else []
+    return [f"for the eye: a change shows from {', '.join(said)} on"] if said else []
 
 
 def _rules(document: dict, answered: bool) -> dict[str, list[dict]]:
@@ -151,7 +159,7 @@ def _values(candidate: dict) -> str:
 def _growth(candidate: dict) -> str:
     rise = candidate["growth_10_to_75_deg"]
     parts = [f"x{rise['at_mirror']:.3g}"] if rise["at_mirror"] else []
-    return " ".join(parts + ([f"mirror x{rise['mirror_term']:.3g}"] if rise["mirror_term"] else [])) or "-"
+    return ", ".join(parts + ([f"image x{rise['mirror_term']:.3g}"] if rise["mirror_term"] else [])) or "-"
 
 
 def _gloss(candidate: dict) -> str:
