@@ -98,13 +98,11 @@ class AllAround:
 
     def _frames(self) -> np.ndarray:
         """(pixels, 3, 3) that turn a row vector, its first axis on the camera's side, into the world."""
-        x, y = self.to_camera[:, 0], self.to_camera[:, 1]
-        across = np.hypot(x, y)
+        across = np.hypot(self.to_camera[:, 0], self.to_camera[:, 1])
         sure = across > 1e-12
-        x, y = (
-            np.where(sure, x / np.where(sure, across, 1.0), 1.0),
-            np.where(sure, y / np.where(sure, across, 1.0), 0.0),
-        )
+        length = np.where(sure, across, 1.0)
+        x = np.where(sure, self.to_camera[:, 0] / length, 1.0)
+        y = np.where(sure, self.to_camera[:, 1] / length, 0.0)
         zero = np.zeros_like(x)
         local = np.stack(
             [np.stack([x, y, zero], 1), np.stack([-y, x, zero], 1), np.stack([zero, zero, zero + 1], 1)], 1
