@@ -78,12 +78,10 @@ class AllAround:
         """Radiance from each half vector's light times 4 (h·r) dωh / cos θr, (pixels, points); of light that is even
         (nodes, points)."""
         half, area = self.half_vectors
-        if self.to_world is None:
-            cos_r, _, frames = np.cos(self.nodes), 0.0, None
-        else:
+        cos_r, frames = np.cos(self.nodes), None if self.to_world is None else self._frames(self.to_world)
+        if frames is not None:
             low, share = self.places
             cos_r = np.cos(np.interp(low + share, np.arange(NODES), self.nodes))
-            frames = self._frames()
         found = np.empty((len(cos_r), len(half)), np.float32)
         for at in range(0, len(cos_r), BLOCK):
             block = slice(at, at + BLOCK)
@@ -96,7 +94,7 @@ class AllAround:
             found[block] = np.where(reached, incident * along * area / cos_r[block, None], 0.0)
         return found
 
-    def _frames(self) -> np.ndarray:
+    def _frames(self, to_world: np.ndarray) -> np.ndarray:
         """(pixels, 3, 3) that turn a row vector, its first axis on the camera's side, into the world."""
         across = np.hypot(self.to_camera[:, 0], self.to_camera[:, 1])
         sure = across > 1e-12
@@ -107,7 +105,7 @@ class AllAround:
         local = np.stack(
             [np.stack([x, y, zero], 1), np.stack([-y, x, zero], 1), np.stack([zero, zero, zero + 1], 1)], 1
         )
-        return local @ np.swapaxes(self.to_world, 1, 2)
+        return local @ np.swapaxes(to_world, 1, 2)
 
     def reflected(self, brdf) -> np.ndarray:
         """Radiance (pixels, channels) of a finite law, `brdf(geom)` [1/sr], in the unit of the surroundings."""

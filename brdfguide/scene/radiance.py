@@ -86,7 +86,9 @@ class Quadrature:
     def around(self) -> AllAround | None:
         """The quadrature of light from all around, where there is any."""
         around = self.scene.around
-        return around and AllAround(around, self.to_camera, self.to_world, self.width, self.fewer)
+        if around is None:
+            return None
+        return AllAround(around, self.to_camera, self.to_world, self.width, self.fewer)
 
     @property
     def representative(self) -> Geometry:
@@ -97,7 +99,7 @@ class Quadrature:
     def radiance(self, brdf) -> np.ndarray:
         """Relative radiance (pixels, channels) of the finite part of a law, `brdf(geom)` [1/sr]."""
         geom, factor, pixel = self.lit
-        total = 0.0
+        total: np.ndarray = np.zeros((len(self), 1))
         if len(geom) or self.around is None:
             values = brdf(geom) * factor[:, None]
             total = np.stack([np.bincount(pixel, column, len(self)) for column in values.T], axis=1)

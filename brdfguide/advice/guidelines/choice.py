@@ -166,11 +166,12 @@ def _less_than_a_mirror(material: Material) -> str:
     if not material.gloss or material.n is None or "alpha" not in material.filled_by:
         return ""
     n, white = material.n[len(material.n) // 2], sum(material.albedo or (0.0,)) / len(material.albedo or (0.0,))
-    smooth = {angle: gloss.mirror_units(angle, n) + white * gloss.DIFFUSE[angle] for angle in material.gloss}
-    angle = min(material.gloss, key=lambda each: material.gloss[each] / smooth[each])
-    if smooth[angle] - material.gloss[angle] <= SURE * gloss.tolerance(smooth[angle]):
+    readings = dict(material.gloss)
+    smooth = {angle: gloss.mirror_units(angle, n) + white * gloss.DIFFUSE[angle] for angle in readings}
+    angle = min(readings, key=lambda each: readings[each] / smooth[each])
+    if smooth[angle] - readings[angle] <= SURE * gloss.tolerance(smooth[angle]):
         return ""
-    return f"its gloss of {material.gloss[angle]:g} at {angle}° is less than the {smooth[angle]:.0f} of a smooth one"
+    return f"its gloss of {readings[angle]:g} at {angle}° is less than the {smooth[angle]:.0f} of a smooth one"
 
 
 def _met_by(material: Material) -> str:
