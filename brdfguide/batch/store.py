@@ -63,11 +63,11 @@ class Store:
         """Where the answer lies."""
         return self.folder / kind / key[:2] / f"{key}{suffix}"
 
-    def read(self, key: str, schema: str) -> dict | None:
-        """The answer; None where there is none, or it is damaged."""
+    def read(self, key: str, schema: str | None = None) -> dict | None:
+        """The answer, of whatever schema where none is given; None where there is none, or it is damaged."""
         document = _object(self.place(key)) or {}
         stored = document.get("stored")
-        fits = isinstance(stored, dict) and stored.get("key") == key and document.get("schema") == schema
+        fits = isinstance(stored, dict) and stored.get("key") == key and schema in (None, document.get("schema"))
         return document if fits and digest_holds(document) else None
 
     def keep(self, key: str, document: dict) -> None:
@@ -88,14 +88,14 @@ class Store:
 
     def named(self, label: str) -> dict:
         """What is known of a name: its `key`, and the `products` made for it; nothing where it is new."""
-        found = _object(self._name_place(label)) or {}
+        found = _object(self.name_place(label)) or {}
         return found if isinstance(found.get("key"), str) and isinstance(found.get("products"), dict) else {}
 
     def name(self, label: str, key: str, products: dict[str, Any]) -> None:
         """Notes whose answer that is; nothing is written where it is known."""
         record = {"name": label, "key": key, "products": products}
         if self.named(label) != record:
-            self._write(self._name_place(label), record)
+            self._write(self.name_place(label), record)
 
     def names(self):
         """(name, key) of all, in the order of their hashes."""
@@ -124,7 +124,8 @@ class Store:
         with suppress(OSError):
             (self.folder / "claims" / key).unlink()
 
-    def _name_place(self, label: str) -> Path:
+    def name_place(self, label: str) -> Path:
+        """Where it is noted whose answer a name has."""
         return self.place(hashlib.sha256(os.fsencode(label)).hexdigest(), "names")
 
     def _write(self, place: Path, document: dict) -> None:

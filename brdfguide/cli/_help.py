@@ -12,7 +12,7 @@ GROUPS = {
     "Look at it": ("inspect", "compare", "preview", "explore", "figures", "evaluate"),
     "Small sums": ("index", "albedo", "gloss", "scatter"),
     "Carry it on": ("numbers", "export", "convert"),
-    "Many surfaces": ("collect", "search"),
+    "Many surfaces": ("collect", "search", "prune-answers"),
     "Catalogues": ("models", "materials", "examples", "schema"),
     "Trust": ("verify", "check", "bench"),
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..finding import Finding
-from ..physics.directions import FIELDS, Directions
+from ..physics.directions import gathered
 from ..physics.geometry import Geometry
 from .measurement import Measurement
 
@@ -109,9 +109,7 @@ def joined(parts: list[Measurement]) -> Measurement:
         raise InputError(f"{first.name}: its blocks do not have the same channels")
     if len(parts) == 1:
         return first
-    directions = Directions(
-        **{name: np.concatenate([getattr(each.geom.directions, name) for each in parts]) for name in FIELDS}
-    )
+    directions = gathered([each.geom.directions for each in parts])
     stderr = None if first.stderr is None else np.concatenate([each.stderr for each in parts])
     brdf = np.concatenate([each.brdf for each in parts])
     return replace(first, geom=Geometry(directions, first.geom.wavelength), brdf=brdf, stderr=stderr)

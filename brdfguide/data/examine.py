@@ -78,7 +78,8 @@ def prepared(measurement: Measurement, *, anyway: bool = False) -> Measurement:
     Raises InputError where the values contradict themselves and NoAnswer for a surface outside the guide, unless
     `anyway`.
     """
-    measurement, found = _settled(grazing.as_measured(measurement), anyway)
+    measurement = grazing.as_measured(measurement)  # of a large table nothing else is held from here on
+    measurement, found = _settled(measurement, anyway)
     false = np.zeros(len(measurement.geom), bool) if anyway else _false(measurement)
     measurement = replace(measurement, noise=smoothness.estimated_noise(measurement).weighing(measurement.brdf))
     beyond = outside((*measurement.findings, *found))

@@ -98,10 +98,10 @@ def read_for_fit(file, job: Job = Job()) -> Measurement:
     """
     if job.turned:
         files = file if isinstance(file, (list, tuple)) else [file]
-        measurement = joined.read_turned(files, job.turned, anyway=job.anyway, **dict(job.reading))
-    else:
-        measurement = formats.read(file, **dict(job.reading))
-    return examine.prepared(_behind_aperture(measurement, job), anyway=job.anyway)
+        turned = joined.read_turned(files, job.turned, anyway=job.anyway, **dict(job.reading))
+        return examine.prepared(_behind_aperture(turned, job), anyway=job.anyway)
+    # no name for what was read: of a large table it is gone once its parts are taken
+    return examine.prepared(_behind_aperture(formats.read(file, **dict(job.reading)), job), anyway=job.anyway)
 
 
 def _behind_aperture(measurement: Measurement, job: Job) -> Measurement:

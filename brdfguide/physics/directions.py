@@ -10,6 +10,7 @@ from an arc cosine or a difference of numbers near 1:
 None of it knows a wavelength, so that what a law forms from it serves every channel and is formed once.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
@@ -66,7 +67,7 @@ class Directions(KeepsFormed):
         known = (
             iz, np.hypot(ix, iy), rz, np.hypot(rx, ry), (ix + rx) ** 2 + (iy + ry) ** 2, ix * rx + iy * ry, iz - rz
         )  # fmt: skip
-        return _OfVectors.made(dict(zip(FIELDS, known, strict=False)), (ix, iy, rx, ry))
+        return _OfVectors.made(known, (ix, iy, ix * ry - iy * rx, rx, ry))
 
     @classmethod
     def from_half_difference(cls, theta_h, theta_d, phi_d) -> "Directions":
@@ -80,11 +81,11 @@ class Directions(KeepsFormed):
         ix, iz = cos_h * along + sin_h * cos_d, cos_h * cos_d - sin_h * along
         rx, rz = sin_h * cos_d - cos_h * along, cos_h * cos_d + sin_h * along
         dot = ix * rx - across**2
-        fields = (
-            iz, np.hypot(ix, across), rz, np.hypot(rx, across), 4 * (sin_h * cos_d) ** 2, dot, -2 * sin_h * along,
-            np.degrees(np.arctan2(across, ix)), np.degrees(np.arctan2(-across * (ix + rx), dot)),
+        known = (
+            iz, np.hypot(ix, across), rz, np.hypot(rx, across), 4 * (sin_h * cos_d) ** 2, dot, -2 * sin_h * along
         )  # fmt: skip
-        return cls(*np.broadcast_arrays(*fields))
+        arrays = np.broadcast_arrays(*known, ix, across, -across * (ix + rx), rx, -across)
+        return _OfVectors.made(arrays[: len(known)], arrays[len(known) :])
 
     # --- what laws are written in -------------------------------------------------------------------
 
@@ -283,40 +284,52 @@ class Directions(KeepsFormed):
 class _OfVectors(Directions):
     """Directions whose azimuths are not formed yet."""
 
-    _tangents: tuple  # x and y of the light, x and y of the detector; gone where the azimuths are fields
+    # x and y of the light, its cross product with the detector, x and y of the detector; gone where azimuths are fields
+    _tangents: tuple
 
     @classmethod
-    def made(cls, known: dict, tangents) -> "_OfVectors":
-        """Takes  every field but the azimuths."""
+    def made(cls, known, tangents) -> "_OfVectors":
+        """Takes  the fields of KNOWN in their order."""
         new = object.__new__(cls)
-        vars(new).update(known, _tangents=tuple(tangents))
+        vars(new).update(zip(KNOWN, known, strict=True), _tangents=tuple(tangents))
         return new
+
+    @property
+    def _known(self) -> list:
+        return [getattr(self, name) for name in KNOWN]
 
     @cached_property
     def phi_i_deg(self):
         """Azimuth of the light; 0 at the normal, where the detector alone says where a grain lies."""
-        ix, iy, _, _ = self._tangents
+        ix, iy, *_ = self._tangents
         return np.where((ix == 0) & (iy == 0), 0.0, np.degrees(np.arctan2(iy, ix)))
 
     @cached_property
     def phi_deg(self):
-        ix, iy, rx, ry = self._tangents
-        phi = np.degrees(np.arctan2(ix * ry - iy * rx, ix * rx + iy * ry))
-        normal = (ix == 0) & (iy == 0)
+        ix, iy, cross, rx, ry = self._tangents
+        phi, normal = np.degrees(np.arctan2(cross, self.dot_xy)), (ix == 0) & (iy == 0)
         return np.where(normal, np.degrees(np.arctan2(ry, rx)), phi) if np.any(normal) else phi
 
     def each(self, function) -> Directions:
         if "_tangents" not in vars(self):
             return super().each(function)
-        known = {name: function(np.asanyarray(getattr(self, name))) for name in KNOWN}
-        return self.made(known, (function(np.asanyarray(each)) for each in self._tangents))
+        return self.made(*([function(np.asanyarray(each)) for each in some] for some in (self._known, self._tangents)))
 
     def _with_unlit_at_normal(self) -> Directions:
         if "_tangents" not in vars(self):
             return super()._with_unlit_at_normal()
-        known = {name: np.where(self.lit, getattr(self, name), AT_NORMAL.get(name, 0.0)) for name in KNOWN}
-        apart = (0.0, 0.0, -1.0, 0.0)  # the detector's azimuth at 180
+        known = [np.where(self.lit, getattr(self, name), AT_NORMAL.get(name, 0.0)) for name in KNOWN]
+        apart = (0.0, 0.0, 0.0, -1.0, 0.0)  # the detector's azimuth at 180
         return self.made(known, (np.where(self.lit, *each) for each in zip(self._tangents, apart, strict=True)))
+
+
+def gathered(parts: Sequence[Directions]) -> Directions:
+    """The rows of all parts, one after the other; azimuths that are not formed stay so."""
+    if all("_tangents" in vars(each) for each in parts):
+        known = [np.concatenate([getattr(each, name) for each in parts]) for name in KNOWN]
+        tangents = zip(*(each._tangents for each in parts if isinstance(each, _OfVectors)), strict=True)
+        return _OfVectors.made(known, map(np.concatenate, tangents))
+    return Directions(**{name: np.concatenate([getattr(each, name) for each in parts]) for name in FIELDS})
 
 
 AT_NORMAL = {"cos_i": 1.0, "cos_r": 1.0, "phi_deg": 180.0}  # a pair that meets no horizon; other fields are 0

@@ -38,6 +38,7 @@ LINES = {
     "": "",
     "collect": "collect {answers} -o {out}/it.jsonl --json",
     "search": "search {answers}",
+    "prune-answers": "prune-answers {left}",
     "fit": "fit {dome} -m lambertian+ward,lambertian+phong --json --no-timing",
     "recommend": "recommend porcelain --json --no-timing",
     "inspect": "inspect {dome} --json",
@@ -147,6 +148,7 @@ ACTS = {
         "--output": Acts("-o {out}/it.csv", shows="it.csv"),
         "--fail-missing": Acts("--fail-missing {list}"),
     },
+    "prune-answers": {"--yes": Acts("--yes")},
     "search": {
         "--like": Acts("--like lambertian"),
         "--alike": Acts("--alike"),

@@ -91,6 +91,10 @@ def files(tmp_path_factory) -> dict[str, str]:
     names["answers"] = str(folder / "answers")
     run("fit {few} --recurse -m lambertian+ward --no-timing --out {answers}", names)
     run("collect {answers} -o {answers}/../all.csv", names)
+    names["left"] = str(folder / "left")  # answers of which one has lost its data
+    (folder / "lost.csv").write_bytes((folder / "dome.csv").read_bytes())
+    run(f"fit {folder}/lost.csv {{dome}} -m lambertian --no-timing --out {{left}}", names)
+    (folder / "lost.csv").write_text("gone")
     (folder / "rim.yaml").write_text("directions:\n  - {theta_i_deg: 60, theta_r_deg: 0}\n")
     names["rim"] = str(folder / "rim.yaml")
     status, out, _ = run(LINES["fit"], names)

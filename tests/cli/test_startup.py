@@ -31,6 +31,8 @@ MAY_NOT_LOAD = {
     "collect --help": HEAVY,
     "collect OUT -o OUT/all.csv": ("scipy", "yaml", "matplotlib"),
     "search --help": HEAVY,
+    "prune-answers --help": HEAVY,
+    "prune-answers OUT": ("scipy", "yaml", "matplotlib"),
     "search OUT satin": ("scipy", "matplotlib"),
     "recommend --help": HEAVY,
     "recommend porcelain": ("scipy", "matplotlib", "rich"),

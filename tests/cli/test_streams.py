@@ -43,6 +43,7 @@ COMMANDS = {
     "plan": ("plan", "porcelain", "--budget", "2", "--theta-max", "40"),
     "verify": ("verify", "{answers}/answer.json"),
     "search": ("search", "{answers}/fits"),
+    "prune-answers": ("prune-answers", "{answers}/fits"),
     "wrong": ("evaluate", "größe\x1b[31m"),
 }
 ENCODINGS = {

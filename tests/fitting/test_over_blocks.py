@@ -153,3 +153,53 @@ def test_blocks_of_other_channels_and_no_rows_are_sentences():
         joined([made(0), made(1).of_channels([0])])
     with pytest.raises(InputError, match="no direction"):
         in_blocks.drawn([], 10)
+
+
+@pytest.fixture
+def parquet_table(tmp_path, monkeypatch):
+    """A Parquet table that is read in pieces of a thousand rows, and what it is when it is read at once."""
+    pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    from brdfguide.data.formats import parquet as ours
+
+    whole = joined([made(number) for number in range(3)])
+    angles = (
+        whole.geom.theta_i_deg,
+        whole.geom.phi_i_deg,
+        whole.geom.theta_r_deg,
+        np.remainder(whole.geom.phi_deg, 360),
+    )
+    names = ("theta_i_deg", "phi_i_deg", "theta_r_deg", "phi_r_deg", "R", "G", "B")
+    columns = np.concatenate([*angles, whole.brdf], axis=1).T
+    path = tmp_path / "wall.parquet"
+    parquet.write_table(pyarrow.table(dict(zip(names, columns, strict=True))), path, row_group_size=2500)
+    read_at_once = formats.read(path)
+    monkeypatch.setattr(ours, "LARGEST_CELLS", 1000)
+    monkeypatch.setattr(ours, "TOGETHER", 1000)
+    return path, read_at_once
+
+
+def test_a_parquet_table_is_read_in_pieces_from_the_mapped_file(parquet_table, monkeypatch):
+    path, whole = parquet_table
+    blocks = formats.in_blocks(path, theta_max=70.0)
+    parts = list(blocks)
+    kept = whole[(np.maximum(whole.geom.theta_i_deg, whole.geom.theta_r_deg) <= 70)[:, 0]]
+    assert len(parts) == 9 and np.array_equal(joined(parts).brdf, kept.brdf)
+    np.testing.assert_array_equal(joined(parts).geom.dot_xy, kept.geom.dot_xy)
+    sample = blocks.sample(500)
+    assert 350 < len(sample.brdf) <= 500 and np.all(np.isin(sample.brdf[:, 0], whole.brdf[:, 0]))
+    assert formats.in_blocks(path).sample(500).findings[-1].numbers[1] == ("of", 3 * ROWS)
+    monkeypatch.setattr(Blocks.sample, "__defaults__", (4000, 0))
+    answer = brdfguide.fit(path, ["lambertian+ggx"], timing=False)
+    assert answer.recommended.rms_ln == pytest.approx(rms_over_all([answer.recommended.surface], whole)[0], rel=1e-12)
+
+
+def test_a_damaged_parquet_table_is_a_sentence_in_pieces_too(parquet_table, tmp_path):
+    path, _ = parquet_table
+    content = bytearray(path.read_bytes())
+    content[40:4000] = bytes(3960)
+    (tmp_path / "bad.parquet").write_bytes(content)
+    with pytest.raises(InputError, match="a damaged Parquet file"):
+        formats.in_blocks(tmp_path / "bad.parquet").sample(10)
+    (tmp_path / "cut.parquet").write_bytes(path.read_bytes()[:-20])
+    with pytest.raises(InputError, match="a damaged Parquet file"):
+        formats.in_blocks(tmp_path / "cut.parquet")

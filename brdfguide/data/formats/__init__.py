@@ -6,6 +6,7 @@ read("steel.csv") -> Measurement
 import os
 import re
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from ...flags import Effect
 from ...opening import Held, is_plain
 from .. import conventions
 from ..measurement import Measurement
-from . import _open, _options, _rows, _unread
+from . import _open, _options, _parts, _rows, _unread
 from .format import TEXT_LIMIT, Format, Options, Source, check_wavelength
 
 HEAD = 65536  # bytes that the readers look at
@@ -72,19 +73,40 @@ def _read(format: Format, source: Source, asked: Options, **selection) -> Measur
 
 
 def in_blocks(path, *, wavelength=None, in_plane: bool = False, theta_max: float | None = None, **options):
-    """A text table too large to be held, as `data.blocks.Blocks`; None for any other file. Options as of `read`.
+    """A table too large to be held, as `data.blocks.Blocks`; None for any other file. Options as of `read`.
 
     Raises InputError for what is no row of numbers, and while it is read as `read` does.
     """
-    if isinstance(path, Held) or not is_plain(path) or os.path.getsize(path) <= LARGEST_TABLE:
+    if isinstance(path, Held) or not is_plain(path):
         return None
     asked = _options.checked(Options(**options))
     selection = {"wavelength": wavelength, "in_plane": in_plane, "theta_max": theta_max}
     with _open.stream(path, str(path)) as stream:
-        format = recognised(stream.read(HEAD), str(path))
+        head = stream.read(HEAD)
+        known = next((each for each in members() if each.parts and each.recognises(head)), None)
+        if known is not None:
+            source = Source(str(path), _open.mapped_content(path, stream, head, known), _behind(stream))
+            return _in_parts(known, source, asked, selection)
+    if os.path.getsize(path) <= LARGEST_TABLE:
+        return None
+    format = recognised(head, str(path))
     if format.name != "table":
         return None
     return _rows.blocks(path, lambda source: _read(format, source, asked, **selection))
+
+
+def _in_parts(format: Format, source: Source, asked: Options, selection: dict):
+    """The same of a format that gives its tables in parts."""
+    assert format.is_large and format.parts
+    if not format.is_large(source):
+        return None
+    _options.heeded(asked, format, source.name)
+
+    def selected(part: Measurement) -> Measurement:
+        _options.without_effect(asked, part)
+        return user_selection(finished(part.noting(*source.findings), format, asked), **selection)
+
+    return _parts.blocks(source.name, partial(format.parts, source, asked), selected)
 
 
 def writers() -> tuple[str, ...]:

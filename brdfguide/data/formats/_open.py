@@ -2,9 +2,12 @@
 
 import sys
 from contextlib import contextmanager
+from mmap import ACCESS_READ, mmap
+from typing import Any
 
 from ... import opening
 from ...errors import InputError
+from .format import Format
 
 MAGIC = {b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"BZh": "bzip2"}
 PIECE = 2**20  # bytes of content read at once
@@ -45,6 +48,14 @@ def whole_content(stream, head: bytes, limit: int, name: str, swells: bool = Fal
                 f"{name}: unpacks to more than {HONEST_SWELLING} times its size, which no measurement does"
             )
     return content
+
+
+def mapped_content(path, stream, head: bytes, format: Format) -> Any:
+    """All of a file that lies there as it is, mapped to memory; of a packed one its content."""
+    if stream.kind is None:
+        with open(path, "rb") as file:
+            return mmap(file.fileno(), 0, access=ACCESS_READ)
+    return whole_content(stream, head, format.limit, str(path), swells=format.whole_table)
 
 
 class _Unpacked:

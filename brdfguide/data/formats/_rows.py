@@ -8,12 +8,12 @@ from ...errors import InputError, NothingLeft
 from ..blocks import STREAM, Blocks
 from ..measurement import Measurement
 from . import _open
+from ._parts import check_alike, decisions
 from ._sheet import COMMENTS
 from .format import Source, holds_number
 
 PIECE = 2**22  # bytes of rows that are one block
 MOST_OF_A_HEAD = 2**16  # bytes: comments and names
-DECIDES = ("--unit", "--quantity", "--mirror-side", "--columns", "--rotation-sense")  # what settles how rows are read
 Read = Callable[[Source], Measurement]
 
 
@@ -29,7 +29,7 @@ def blocks(path, read: Read) -> Blocks:
     def draw(count: int, seed: int) -> tuple[Measurement, int]:
         head, lines, size = _drawn_lines(path, name, count, seed)
         found = read(Source(name, head + b"".join(lines)))
-        settled[:] = [_decisions(found)]
+        settled[:] = [decisions(found)]
         return found, size
 
     def every() -> Iterator[Measurement]:
@@ -38,20 +38,10 @@ def blocks(path, read: Read) -> Blocks:
                 found = read(Source(f"{name} from line {line} on", head + rows))
             except NothingLeft:
                 continue
-            if settled and _decisions(found) != settled[0]:
-                texts = [each.text for each in found.findings if each.option in DECIDES]
-                raise InputError(
-                    f"{name}: from line {line} on it would be read otherwise than as a whole ({'; '.join(texts)}); "
-                    f"one of {', '.join(DECIDES)} decides it"
-                )
+            check_alike(name, f"from line {line} on", found, settled)
             yield found
 
     return Blocks(name, every, draw)
-
-
-def _decisions(found: Measurement) -> frozenset[str]:
-    """What was decided by the values, since neither names nor options say it."""
-    return frozenset(each.code for each in found.findings if each.option in DECIDES)
 
 
 def _pieces(path, name: str) -> Iterator[tuple[bytes, bytes, int]]:

@@ -1,7 +1,7 @@
 """What every file in this folder provides: how a kind of file is recognised and how it becomes a Measurement."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -46,7 +46,7 @@ class Source:
     """The bytes of a file and the name that errors call it by."""
 
     name: str
-    data: bytes | bytearray
+    data: bytes | bytearray  # or a file mapped to memory, of formats that are read in parts
     findings: tuple[Finding, ...] = ()  # about the file as such
 
     @cached_property
@@ -126,6 +126,9 @@ class Format:
     write: Callable[[Measurement], tuple[str, list[str]]] | None = None
     beside: Callable[[Source], list[Path]] | None = None  # further files that such a file names and `read` reads
     exact_bytes: int | None = None  # the size by which a file without a header is known
+    # what `read` gives in pieces, one after the other, with the notes on the whole; and of which files it is wanted
+    parts: Callable[[Source, Options], Iterator[Measurement]] | None = None
+    is_large: Callable[[Source], bool] | None = None
 
 
 def measurement(

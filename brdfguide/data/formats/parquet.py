@@ -1,9 +1,11 @@
 """Apache Parquet: columns read as those of a table of text are. Needs pyarrow."""
 
-import io
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 
+from ...errors import NothingLeft
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
@@ -11,6 +13,10 @@ from ._tables import library
 from .format import Format, Options, Source
 
 MOST_CELLS = 50_000_000
+LARGEST_CELLS = 8_000_000  # beyond, a fit reads it in pieces
+TOGETHER = 65_536  # rows of a piece
+KIND = "Parquet table"
+NUMBERS = ("double", "float", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
 
 
 def recognises(head: bytes) -> bool:
@@ -19,7 +25,7 @@ def recognises(head: bytes) -> bool:
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError for a damaged file, for columns within columns, and as tables do."""
-    return _meaning.measurement_of(source, _sheet(source), options, kind="Parquet table")
+    return _meaning.measurement_of(source, _sheet(source), options, kind=KIND)
 
 
 def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
@@ -28,33 +34,76 @@ def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
     return _groups.values_of_group(source, table, column)
 
 
-def _sheet(source: Source) -> Sheet:
-    library("pyarrow", "parquet", source, "a Parquet table")
+def is_large(source: Source) -> bool:
+    """Whether it is read row group by row group. Raises InputError for a damaged file."""
+    with _damage_told(source):
+        about = _opened(source).metadata
+        return about.num_rows * about.num_columns > LARGEST_CELLS
+
+
+def parts(source: Source, options: Options) -> Iterator[Measurement]:
+    """The same as `read` gives, in pieces of so many rows. Raises InputError as `read`."""
+    first = 1
+    with _damage_told(source):
+        batches = _opened(source).iter_batches(batch_size=TOGETHER)
+    while True:
+        with _damage_told(source):
+            batch = next(batches, None)
+        if batch is None:
+            return
+        sheet = _sheet_of(source, list(map(str, batch.schema.names)), batch.columns, first)
+        first += batch.num_rows
+        try:
+            yield _meaning.measurement_of(source, sheet, options, kind=KIND)
+        except NothingLeft:
+            continue
+
+
+def _opened(source: Source):
+    pyarrow = library("pyarrow", "parquet", source, "a Parquet table")
     parquet = library("pyarrow.parquet", "parquet", source, "a Parquet table")
+    return parquet.ParquetFile(pyarrow.BufferReader(pyarrow.py_buffer(source.data)))
+
+
+@contextmanager
+def _damage_told(source: Source):
+    """Arrow's own errors, which are of these, as a sentence."""
     try:
-        file = parquet.ParquetFile(io.BytesIO(bytes(source.data)))
+        yield
+    except (OSError, ValueError, ArithmeticError, KeyError, TypeError) as error:
+        raise source.error(f"a damaged Parquet file: {str(error)[:100]}") from None
+
+
+def _sheet(source: Source) -> Sheet:
+    with _damage_told(source):
+        file = _opened(source)
         rows, columns = file.metadata.num_rows, len(file.schema_arrow)
         if rows * columns > MOST_CELLS:
-            raise source.error(f"{rows} rows of {columns} columns are more than a measurement honestly holds")
+            raise source.error(f"{rows} rows of {columns} columns are more than is read at once")
         table = file.read()
-        names = [str(name) for name in table.column_names]
-        lists = [column.to_pylist() for column in table.columns]
-    except (OSError, ValueError, ArithmeticError, KeyError, TypeError) as error:  # Arrow's own errors are of these
-        raise source.error(f"a damaged Parquet file: {str(error)[:100]}") from None
     if not rows or not columns:
         raise source.error("there is no row in it")
-    if any(len(cells) != rows for cells in lists):
+    if any(len(column) != rows for column in table.columns):
         raise source.error(f"a damaged Parquet file: not every column holds the {rows} rows that it promises")
-    values, texts = np.full((rows, columns), np.nan), {}
-    for place, cells in enumerate(lists):
+    return _sheet_of(source, list(map(str, table.column_names)), table.columns, 1)
+
+
+def _sheet_of(source: Source, names: list[str], columns, first: int) -> Sheet:
+    """Columns of Arrow as those of a table whose first row has this number."""
+    values, texts = np.full((len(columns[0]), len(columns)), np.nan), {}
+    for place, column in enumerate(columns):
+        if str(column.type) in NUMBERS:
+            values[:, place] = column.to_numpy(zero_copy_only=False).astype(float)
+            continue
+        with _damage_told(source):
+            cells = column.to_pylist()
         if any(isinstance(cell, (dict, list, tuple, bytes)) for cell in cells):
             raise source.error(f"the column '{names[place][:40]}' holds no plain numbers or words")
-        numbers = [float(cell) if isinstance(cell, (int, float)) else np.nan for cell in cells]
-        values[:, place] = numbers
+        values[:, place] = [float(cell) if isinstance(cell, (int, float)) else np.nan for cell in cells]
         if any(cell is not None and not isinstance(cell, (int, float)) for cell in cells):
             texts[place] = ["" if cell is None else str(cell) for cell in cells]
             values[:, place] = [_number(cell) for cell in texts[place]]
-    return Sheet(names, values, np.arange(1, rows + 1), [], [], texts=texts)
+    return Sheet(names, values, np.arange(first, first + len(values)), [], [], texts=texts)
 
 
 def _number(text: str) -> float:
@@ -72,4 +121,6 @@ FORMAT = Format(
     own_side=False,
     groups=groups,
     options=("columns", "unit", "select", "rotation_sense"),
+    parts=parts,
+    is_large=is_large,
 )
