@@ -106,7 +106,7 @@ def _in_parts(format: Format, source: Source, asked: Options, selection: dict):
         _options.without_effect(asked, part)
         return user_selection(finished(part.noting(*source.findings), format, asked), **selection)
 
-    return _parts.blocks(source.name, partial(format.parts, source, asked), selected)
+    return _parts.in_parts(source.name, partial(format.parts, source, asked), selected)
 
 
 def writers() -> tuple[str, ...]:

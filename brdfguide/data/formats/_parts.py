@@ -9,7 +9,7 @@ from ..measurement import Measurement
 DECIDES = ("--unit", "--quantity", "--mirror-side", "--columns", "--rotation-sense")  # what settles how rows are read
 
 
-def blocks(
+def in_parts(
     name: str, parts: Callable[[], Iterator[Measurement]], selected: Callable[[Measurement], Measurement]
 ) -> Blocks:
     """The parts as Blocks. `selected` gives what options leave of a measurement; of the sample as of each part.
