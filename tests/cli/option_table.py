@@ -38,7 +38,7 @@ LINES = {
     "": "",
     "collect": "collect {answers} -o {out}/it.jsonl --json",
     "search": "search {answers}",
-    "prune-answers": "prune-answers {left}",
+    "prune-answers": "prune-answers {answers} --json",
     "fit": "fit {dome} -m lambertian+ward,lambertian+phong --json --no-timing",
     "recommend": "recommend porcelain --json --no-timing",
     "inspect": "inspect {dome} --json",
@@ -148,7 +148,7 @@ ACTS = {
         "--output": Acts("-o {out}/it.csv", shows="it.csv"),
         "--fail-missing": Acts("--fail-missing {list}"),
     },
-    "prune-answers": {"--yes": Acts("--yes")},
+    "prune-answers": {"--yes": Acts("--yes", "prune-answers {left} --json", shows='"removed": true')},
     "search": {
         "--like": Acts("--like lambertian"),
         "--alike": Acts("--alike"),

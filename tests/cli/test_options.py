@@ -91,16 +91,22 @@ def files(tmp_path_factory) -> dict[str, str]:
     names["answers"] = str(folder / "answers")
     run("fit {few} --recurse -m lambertian+ward --no-timing --out {answers}", names)
     run("collect {answers} -o {answers}/../all.csv", names)
-    names["left"] = str(folder / "left")  # answers of which one has lost its data
-    (folder / "lost.csv").write_bytes((folder / "dome.csv").read_bytes())
-    run(f"fit {folder}/lost.csv {{dome}} -m lambertian --no-timing --out {{left}}", names)
-    (folder / "lost.csv").write_text("gone")
+    names["left"] = left_behind(folder)
     (folder / "rim.yaml").write_text("directions:\n  - {theta_i_deg: 60, theta_r_deg: 0}\n")
     names["rim"] = str(folder / "rim.yaml")
     status, out, _ = run(LINES["fit"], names)
     assert status < 2
     (folder / "fit.json").write_text(out)
     return names | {"out": str(folder / "out"), "there": str(folder / "out" / "there.csv")}
+
+
+def left_behind(folder: Path) -> str:
+    """A folder of answers of which one has lost its data."""
+    lost, names = folder / "lost.csv", {"left": str(folder / "left")}
+    lost.write_text((folder / "dome.csv").read_text().rpartition("\n")[0].rpartition("\n")[0] + "\n")
+    run(f"fit {lost} {folder}/dome.csv -m lambertian --no-timing --out {{left}}", names)
+    lost.write_text("gone")
+    return names["left"]
 
 
 def several(folder: Path) -> None:
