@@ -43,5 +43,8 @@ def prune_answers(request: PruneRequest) -> None:
     elif stale:
         lines = [(each.why, each.key[:12], printable.sentence(", ".join(each.names)) or "-") for each in stale]
         say(columns(HEADER, lines))
-    done = "removed" if request.yes else "would go with --yes"
-    remark(f"{len(stale)} answers, {size / 1e6:.2g} MB, {done}" if stale else "nothing is stale", request.quiet)
+    else:
+        say("nothing is stale")
+    if stale:
+        done = "removed" if request.yes else "would go with --yes"
+        remark(f"{len(stale)} answers, {size / 1e6:.2g} MB, {done}", request.quiet)

@@ -71,14 +71,14 @@ def test_the_command_lists_and_removes(tmp_path, capsys, monkeypatch):
 
     file = some(tmp_path, "a.csv", 0)
     rows(tmp_path / "fits", file, ROOT / "examples" / "white_paper.csv")
-    assert run()[1] == "nothing is stale\n"
+    assert run()[0] == "nothing is stale\n"
     file.unlink()
     out, err = run()
     assert out.splitlines()[1].startswith("data gone  ") and out.splitlines()[1].endswith(f"  {file}")
     assert err.startswith("1 answers, ") and err.endswith("would go with --yes\n") and len(kept(tmp_path / "fits")) == 2
     document = json.loads(run("--json", "--yes", "-q")[0])
     assert document["removed"] and [each["names"] for each in document["stale"]] == [[str(file)]]
-    assert len(kept(tmp_path / "fits")) == 1 and run()[1] == "nothing is stale\n"
+    assert len(kept(tmp_path / "fits")) == 1 and run()[0] == "nothing is stale\n"
 
 
 def test_no_folder_of_answers_is_a_sentence(tmp_path):
