@@ -114,8 +114,8 @@ def materials_page() -> str:
         rows.append(("".join(_picture(MATERIALS, name, name)), f"`{name}`", given.get("about", ""), said))
     about = (
         "`brdfguide materials NAME` shows one with the source of every number. A ball is drawn with the model that is "
-        "recommended first, in the light of `brdfguide preview`; where only the finish is told and no colour, the body "
-        "is black."
+        "recommended first, under the sky of `brdfguide preview --env sky`; where only the finish is told and no "
+        "colour, the body is black."
     )
     return _page("Materials", about, _table(("", "material", "what it is", "what is said of it"), rows))
 

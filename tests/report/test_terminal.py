@@ -77,6 +77,13 @@ def test_a_table_folds_words_and_never_numbers(screen, columns):
     assert sum(word in ("a", "doubt", "many", "words") for word in words) == 8
 
 
+def test_a_name_that_is_typed_again_is_not_broken_while_another_column_can_be(screen):
+    screen(80)
+    rows = [("anodised-aluminium", "aluminium", "metal", "satin", "aluminium with a clear oxide layer, bead blasted")]
+    lines = table.columns(("material", "kind or substance", "appearance", "finish", "about"), rows).split("\n")
+    assert any(line.startswith("anodised-aluminium ") for line in lines) and max(map(len, lines)) <= 80
+
+
 @pytest.mark.parametrize("columns", [80, 100, 120, 200])
 @pytest.mark.parametrize("full", [True, False], ids=["full", "short"])
 def test_an_answer_fits_the_screen_in_colour_and_says_what_the_plain_one_says(screen, document, columns, full):

@@ -5,6 +5,7 @@ from .folding import broken, screen_width
 
 GAP = "  "
 NARROWEST = 12  # columns of a cell whose words are folded
+MOST_OF_A_NAME = 24  # columns that the names of the rows keep while others can give way
 
 
 def columns(header: tuple[str, ...], lines, right: tuple[int, ...] = ()) -> str:
@@ -34,7 +35,8 @@ def _narrowed(natural: list[int], right: tuple[int, ...], screen: int) -> list[i
         words = [place for place in range(len(widths)) if place not in right and widths[place] > NARROWEST]
         if not words:
             return None
-        widths[max(words, key=lambda place: widths[place])] -= 1
+        told = [place for place in words if place or widths[place] > MOST_OF_A_NAME]
+        widths[max(told or words, key=lambda place: widths[place])] -= 1
     return widths
 
 
