@@ -47,6 +47,7 @@ LATE = {
     "report.text.emergence": {"json", ".folding"},  # the same command answers in words, and in a pipe, without them
     "batch.flat_files": {"pyarrow"},  # an optional dependency
     "batch.scheduler": {"distributed"},  # an optional dependency
+    "report.path_traced.tracer": {"mitsuba"},  # an optional dependency
     "printable": {"unicodedata"},  # only for letters beyond ASCII
     "audit.certify": {"scipy.optimize"},  # takes as long to import as a whole fit
     "models.surface": {"html"},  # 2,231 names of signs, only for a notebook

@@ -30,6 +30,7 @@ def _theme(word: str) -> str:
 
 THEMES = ("light", "dark")
 ThemeOption = Annotated[str, Option("--theme", callback=_theme, help="Of --plot: light or dark.")]
+FigureThemeOption = Annotated[str, Option("--theme", callback=_theme, help="Of the figures: light or dark.")]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

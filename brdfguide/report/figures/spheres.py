@@ -113,7 +113,7 @@ def difference_picture(steps) -> np.ndarray:
 def preview_sheet(surfaces: Sequence[ColouredSurface], radiances, about: str, compared: bool = True):
     """The same with the name and the shape of each surface, what lights them, and the tone curve."""
     curve = f"exposure {render.EXPOSURE:g}, linear up to half of white, above it 1 - 1/(4x), sRGB"
-    words = f"{about}; {curve}; {surfaces[0].colour.how}"
+    words = "; ".join([about, curve, *dict.fromkeys(each.colour.how for each in surfaces)])
     return picture_sheet([_caption(each) for each in surfaces], list(radiances), words, compared)
 
 
