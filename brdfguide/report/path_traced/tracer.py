@@ -108,7 +108,7 @@ def _plugin(surface, file: Path) -> dict:
     if isinstance(surface, dict):
         return surface
     made = exporters.export("rgl", surface)
-    file.write_bytes(made.content)
+    file.write_bytes(made.content if isinstance(made.content, bytes) else made.content.encode())
     return {"type": "measured", "filename": str(file)}
 
 
