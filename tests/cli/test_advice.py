@@ -255,7 +255,7 @@ def test_the_pick_says_which_change_begins_to_show():
     first, *others = found["candidates"]
     assert 0.05 < first["shows_from"]["lambertian.albedo"] < 0.15 and "ggx.k" not in first["shows_from"]
     assert not any("shows_from" in each for each in others)
-    assert "for the eye: it takes 8.6 % of lambertian.albedo" in run("recommend", "office-paper").stdout
+    assert "for the eye: a change shows from 8.6 % of lambertian.albedo" in run("recommend", "office-paper").stdout
 
 
 def test_gloss_says_it_for_its_body():
