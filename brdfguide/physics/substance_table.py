@@ -49,11 +49,15 @@ def metal(name, n, k, wavelength, source, *aliases, table1=None, note="") -> Sub
 
 
 GHOSH = "Ghosh 1999, Opt. Commun. 163, 95"
-HANDBOOK = "Seferis in Brandrup, Immergut and Grulke 1999, Polymer Handbook, 4th ed."
-DE_LA_RIE = "de la Rie 1987, Stud. Conserv. 32, 1"
-KINGERY = "Kingery, Bowen and Uhlmann 1976, Introduction to Ceramics, Table 13.1"
-MINERALS = "Deer, Howie and Zussman 1992, Introduction to the Rock-Forming Minerals"
-READ = "Read 2005, Gemmology, 3rd ed., the middle of its range"
+# These four rest on memory: a search found the first three works but none of their pages, and no trace of Laurie's.
+HANDBOOK = "from memory of Brandrup, Immergut and Grulke 1999, Polymer Handbook, 4th ed., page not seen"
+DE_LA_RIE = "from memory of de la Rie 1987, Stud. Conserv. 32, 1, page not seen"
+KINGERY = "from memory of Kingery, Bowen and Uhlmann 1976, Introduction to Ceramics, 2nd ed., page not seen"
+LAURIE = "from memory of Laurie 1937, Proc. R. Soc. A 159, 123, page not seen"
+ZHANG = "Zhang et al. 2020, Appl. Opt. 59, 2337"
+GEMOLOGY_PROJECT = "The Gemology Project, as quoted in POV-Ray's ior.inc"
+GEMMOLOGY_DEV = "gemmology-dev's table of refractive indices (GitHub, gemmology-plugin)"
+RENDERERS = "lists of indices for renderers, which name no measurement"
 SODIUM = 0.5893  # µm, the line that handbooks give indices for
 TABLE1 = "Westin et al. 2004, Table 1: "
 FIRST_SUBSTANCES = (
@@ -76,7 +80,7 @@ FIRST_SUBSTANCES = (
         "pmma",
         "perspex",
         table1=0.0375,
-        note="1.49 is usual, F0 4 % higher",
+        note="1.49 is usual, F0 3 % higher",
     ),
     dielectric("polyethylene", 1.490, 0.5511, TABLE1 + "Palik 1985", "pe", "hdpe", "ldpe", table1=0.0387),
     dielectric(
