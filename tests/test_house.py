@@ -48,6 +48,7 @@ LATE = {
     "batch.flat_files": {"pyarrow"},  # an optional dependency
     "batch.scheduler": {"distributed"},  # an optional dependency
     "report.path_traced.tracer": {"mitsuba"},  # an optional dependency
+    "advice.profile": {"..data.spectrum_file", "..physics"},  # `materials` and `recommend` start without NumPy
     "printable": {"unicodedata"},  # only for letters beyond ASCII
     "audit.certify": {"scipy.optimize"},  # takes as long to import as a whole fit
     "models.surface": {"html"},  # 2,231 names of signs, only for a notebook

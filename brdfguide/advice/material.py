@@ -118,7 +118,7 @@ def observed(observations: Mapping) -> Material:
 
 def from_document(document: Document) -> Material:
     """A Material from what was read, with the spectrum of heights that it names. Raises InputError where it is none."""
-    return from_values(with_spectrum(document.values, document.name), document.name)
+    return from_values(with_spectrum(document), document.name)
 
 
 def from_values(given: Mapping, name: str = "") -> Material:

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from math import cos, erf, log1p, pi, radians, sqrt
 from pathlib import Path
 
-from ..data.spectrum_file import is_spectrum, read_spectrum
 from ..errors import InputError
 from ..opening import exists, is_plain
-from ..physics import height_spectrum, profile_numbers
+from ..physics import profile_numbers
 from ..physics.emergence import WAVELENGTH
+from ..yaml_schema import Document
 
 # keys of a height, the most direct first -> rms height over it
 HEIGHTS = {
@@ -100,26 +100,34 @@ def band_of(stylus: Mapping) -> tuple[float, float | None]:
     return low, 1 / stated["shortest_um"] if "shortest_um" in stated else None
 
 
-def spectrum_at(name: str, description: str) -> Path:
+def spectrum_at(name: str, description: Document) -> Path:
     """The spectrum's file beside the description that names it.
 
     Raises InputError unless it is a plain file whose header is a spectrum's: a description comes from other people, and
     may name any file that we can read, so that nothing of another one is quoted.
     """
-    path = Path(description).parent / name
-    where = f"{description}: its spectrum {path}"
+    from ..data.spectrum_file import is_spectrum
+
+    path = Path(description.name).parent / name
     if not exists(path):
-        raise InputError(f"{where}: there is no such file")
+        raise InputError(description.at("stylus.spectrum", f"its spectrum {path}: there is no such file"))
     if not is_plain(path) or not is_spectrum(path):
-        raise InputError(f"{where} is none; wanted two columns with the header `f (1/um), S (um^3)` or `S (um^4)`")
+        wanted = "wanted two columns with the header `f (1/um), S (um^3)` or `S (um^4)`"
+        raise InputError(description.at("stylus.spectrum", f"its spectrum {path} is none; {wanted}"))
     return path
 
 
-def with_spectrum(given: Mapping, description: str) -> Mapping:
-    """Observations with what the spectrum's file tells in place of its name: rq_um, rdq and both ends of its waves."""
-    name = given.get("stylus", {}).get("spectrum")
+def with_spectrum(description: Document) -> Mapping:
+    """Observations with what the spectrum's file tells in place of its name: rq_um, rdq and both ends of its waves.
+
+    Raises InputError for a file that is none.
+    """
+    name = description.values.get("stylus", {}).get("spectrum")
     if not isinstance(name, str):
-        return given
+        return description.values
+    from ..data.spectrum_file import read_spectrum
+    from ..physics import height_spectrum
+
     found = read_spectrum(spectrum_at(name, description))
     if found.profile:
         rq, rdq = height_spectrum.profile_height(found), height_spectrum.profile_slope(found)
@@ -127,7 +135,7 @@ def with_spectrum(given: Mapping, description: str) -> Mapping:
         rq, rdq = height_spectrum.surface_height(found), height_spectrum.surface_gradient(found) / sqrt(2)
     low, high = found.ends
     told = {"file": name, "rq_um": rq, "rdq": rdq, "cutoff_um": 1 / low, "shortest_um": 1 / high, "points": found}
-    return {**given, "stylus": {**given["stylus"], "spectrum": told}}
+    return {**description.values, "stylus": {**description.values["stylus"], "spectrum": told}}
 
 
 def _waves(told: Mapping) -> str:

@@ -104,11 +104,11 @@ def scatter(request: ScatterRequest) -> None:
     """What a polished surface scatters: TIS, Ra and rms height, spectra, ABg, Harvey-Shack and K-correlation."""
     from ..report.text.scatter import text
 
-    document = _document(request)
-    answer(document, request.json, text)
     if request.plot is None:
         refuse(request.context, "theme", because="without --plot nothing is drawn")
-    else:
+    document = _document(request)
+    answer(document, request.json, text)
+    if request.plot is not None:
         from ..report.figures.scatter import plot_scatter
 
         plot_scatter(document, request.plot, request.theme)
@@ -254,9 +254,8 @@ def _of_description(path: str, rest: list[str], request: ScatterRequest) -> dict
     from dataclasses import replace
 
     from ..advice.material import read_material
-    from ..advice.profile import HEIGHTS, band_of, height_of, spectrum_at
+    from ..advice.profile import HEIGHTS, band_of, height_of
     from ..data import formats
-    from ..data.spectrum_file import read_spectrum
     from ..fitting.three_ways import Profile, Total
     from ..report.documents import scatter as documents
 
@@ -273,7 +272,7 @@ def _of_description(path: str, rest: list[str], request: ScatterRequest) -> dict
     wavelength = float(measurement.geom.wavelength.ravel()[0])
     profile = total = None
     if told := stylus.get("spectrum"):
-        spectrum = read_spectrum(spectrum_at(told["file"], path))
+        spectrum = told["points"]
         low, high = band_of(stylus)
         profile = Profile((low, high or spectrum.ends[1]), spectrum=spectrum)
     elif stylus.keys() & HEIGHTS.keys():

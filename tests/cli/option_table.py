@@ -333,6 +333,6 @@ ACTS = {
     "bench": {
         "--models": Acts("-m phong", shows="phong"),
         "--plot": Acts("--plot {out}/it.svg", "bench {dome} -m lambertian", shows="it.svg"),
-        "--theme": Acts("--theme dark", "bench {dome} -m lambertian --plot {out}/it.svg"),
+        "--theme": Acts("--theme dark", "bench {dome} -m lambertian --plot {out}/it.svg", shows="#14171a"),
     },
 }

@@ -90,7 +90,7 @@ def test_two_spheres_and_their_difference_are_drawn(tmp_path):
         ([DATA, "examples/metallic_paint.csv"], "measured at different directions, and between them there is nothing"),
         ([DATA, "ggx", "--plot", "it.png"], "--plot: rough_plastic.csv holds measured directions"),
         ([f"{DATA} x=1", "ggx"], "a data file stands alone, without parameters"),
-        (["ggx", "--to", "gltff"], "did you mean gltf?"),
+        (["ggx", "--to", "gltff"], "did you mean gltf or gltf-pbr?"),
     ],
 )
 def test_bad_input_is_one_sentence(words, sentence):

@@ -62,7 +62,7 @@ COMMENTS = {
     "zemax": "#",
 }
 TABLES = ("astm", "csv", "fred", "lighttools", "speos", "tracepro", "zemax")  # with a line or more of comments
-XML = ("mitsuba", "materialx", "openpbr", "standard-surface")
+XML = ("gltf-pbr", "mitsuba", "materialx", "openpbr", "standard-surface")
 TEXTS = [target for target in exporters.names() if target not in ("merl", "rgl", "rgl-spectral")]
 MODEL = models.get("lambertian+ggx")
 VALUES = {"lambertian.albedo": 0.3, "ggx.alpha": 0.2}
