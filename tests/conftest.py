@@ -5,9 +5,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis.internal.conjecture import providers
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = Path(os.environ.get("BRDFGUIDE_DATA", ROOT.parent / "shared" / "data"))
+
+
+if hasattr(providers, "_get_local_constants"):
+    # It would draw numbers that stand in whatever has been imported: other cases after other tests, on every worker.
+    providers._get_local_constants = lambda of_no_module=providers.Constants(): of_no_module
 
 
 @pytest.fixture(autouse=True)
