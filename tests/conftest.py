@@ -11,9 +11,13 @@ ROOT = Path(__file__).resolve().parent.parent
 DATA = Path(os.environ.get("BRDFGUIDE_DATA", ROOT.parent / "shared" / "data"))
 
 
+def of_no_module():
+    """No numbers out of what has been imported: they would be others after other tests, and on every worker."""
+    return providers.Constants()
+
+
 if hasattr(providers, "_get_local_constants"):
-    # It would draw numbers that stand in whatever has been imported: other cases after other tests, on every worker.
-    providers._get_local_constants = lambda of_no_module=providers.Constants(): of_no_module
+    providers._get_local_constants = of_no_module
 
 
 @pytest.fixture(autouse=True)

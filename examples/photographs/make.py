@@ -52,9 +52,9 @@ def picture(phase: float, albedos) -> np.ndarray:
         f = WHITE_ALBEDO / np.pi
         if albedos is not None:
             values = {"lambertian.albedo": albedos[channel], "ggx.alpha": ALPHA, "ggx.n": INDEX}
-            f = brdfguide.evaluate(
-                "lambertian+ggx", at.theta_i_deg, at.theta_r_deg, at.phi_deg, **values
-            ).reshape(at.cos_i.shape)
+            f = brdfguide.evaluate("lambertian+ggx", at.theta_i_deg, at.theta_r_deg, at.phi_deg, **values).reshape(
+                at.cos_i.shape
+            )
         light[lit, channel] = np.pi * f * irradiance[lit]
     return light.reshape(SIZE, RAYS, SIZE, RAYS, 3).mean(axis=(1, 3))
 
