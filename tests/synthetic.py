@@ -5,7 +5,7 @@ import numpy as np
 from brdfguide.data.measurement import Measurement
 from brdfguide.fitting.layout import from_coordinate, to_coordinate
 from brdfguide.models.surface import Surface
-from brdfguide.physics.directions import FIELDS, Directions
+from brdfguide.physics.directions import gathered
 from brdfguide.physics.geometry import Geometry, rows
 
 WAVELENGTHS_UM = (0.45, 0.55, 0.65)
@@ -30,8 +30,7 @@ def hemisphere(count: int = 600, seed: int = 5, highest: float = 80.0) -> Geomet
 
 def joined(parts) -> Geometry:
     """The rows of several geometries, at the wavelengths of the first."""
-    fields = {name: np.concatenate([getattr(part, name) for part in parts]) for name in FIELDS}
-    return Geometry(Directions(**fields), parts[0].wavelength)
+    return Geometry(gathered([part.directions for part in parts]), parts[0].wavelength)
 
 
 def surface(model, geom: Geometry, values, *, noise: float = 0.0, seed: int = 0, channels: int = 1) -> Measurement:

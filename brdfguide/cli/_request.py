@@ -66,6 +66,11 @@ def refuse(context: Context, *names: str, because: str) -> None:
         raise InputError(f"{', '.join(typed[:-1])}{' and ' if typed[:-1] else ''}{typed[-1]}: {because}")
 
 
+def refuse_theme(context: Context) -> None:
+    """Raises InputError where a theme was typed and no picture is asked for."""
+    refuse(context, "theme", because="without --plot nothing is drawn")
+
+
 def is_typed(context: Context, name: str) -> bool:
     """Whether the option was given by the user."""
     source = context.get_parameter_source(name)

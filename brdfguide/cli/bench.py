@@ -8,7 +8,7 @@ from typer import Argument, Context, Option
 from ..errors import InputError
 from ._fitting import ModelsOption, expressions
 from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, progress
-from ._request import refuse
+from ._request import refuse_theme
 
 EXAMPLES = "Examples: brdfguide bench -m ggx,he-torrance | brdfguide bench examples/rough_plastic.csv --plot front.svg"
 
@@ -36,7 +36,7 @@ def bench(
     if plot is not None and data is None:
         raise InputError("--plot draws error against run time: give the measured data too")
     if plot is None:
-        refuse(context, "theme", because="without --plot nothing is drawn")
+        refuse_theme(context)
     names = expressions(models)
     if data is None:
         ranked = None

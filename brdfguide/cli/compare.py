@@ -9,7 +9,7 @@ from typer import Argument, Context, Option
 from ..errors import InputError
 from ._data import AnywayOption, ApertureOption
 from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
-from ._request import refuse
+from ._request import refuse, refuse_theme
 
 EXAMPLES = (
     'Examples: brdfguide compare "lambertian+ggx ggx.alpha=0.1" "lambertian+ggx ggx.alpha=0.12" | '
@@ -60,7 +60,7 @@ def compare(request: CompareRequest) -> None:
     if len(request.surfaces) > 2:
         refuse(request.context, "plot", "theme", because=OF_TWO)
     if request.plot is None:
-        refuse(request.context, "theme", because="without --plot nothing is drawn")
+        refuse_theme(request.context)
     if request.to is None:
         sides = [compared_side(words, request.anyway) for words in request.surfaces]
     else:

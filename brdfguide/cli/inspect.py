@@ -10,7 +10,7 @@ from ..errors import InputError
 from ._data import Reading, TurnedOption
 from ._many import Many
 from ._options import JsonOption, ThemeOption, answer, picture_file, print_json
-from ._request import refuse
+from ._request import refuse, refuse_theme
 
 EXAMPLES = "Examples: brdfguide inspect run.csv --plot run.png | brdfguide inspect gold-paint.binary --json"
 
@@ -55,7 +55,7 @@ def inspect(request: InspectRequest) -> None:
     from ..report.text.inspection import text
 
     if request.plot is None:
-        refuse(request.context, "theme", because="without --plot nothing is drawn")
+        refuse_theme(request.context)
     if request.json:
         refuse(request.context, "sarif", because="--json is another form of the same answer")
     options, words = request.reading.options(), [str(each) for each in request.data or ()]

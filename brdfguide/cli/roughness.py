@@ -13,7 +13,7 @@ from ..physics.emergence import DISTANCE_MM, PUPIL_MM, WAVELENGTH
 from ..report.documents.emergence import document
 from ..report.text import emergence
 from ._options import FullOption, JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
-from ._request import is_typed, refuse
+from ._request import is_typed, refuse, refuse_theme
 from ._streams import say
 
 MOST_LETTERS = 4096  # of a line of --batch
@@ -98,7 +98,7 @@ def roughness(request: RoughnessRequest) -> None:
     if request.json:
         refuse(request.context, "full", because="--json holds everything")
     if request.plot is None:
-        refuse(request.context, "theme", because="without --plot nothing is drawn")
+        refuse_theme(request.context)
     if request.highlight_half_width is not None:
         _of_highlight(request, request.highlight_half_width)
         return

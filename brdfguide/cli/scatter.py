@@ -10,7 +10,7 @@ from typer import Argument, Context, Option
 from ..errors import InputError, choices
 from ._fitting import assignments
 from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
-from ._request import refuse
+from ._request import refuse, refuse_theme
 
 EXAMPLES = (
     "Examples: brdfguide scatter --ra 12nm --wavelength-nm 633 | brdfguide scatter abg a=1e-4 b=1e-5 g=1.8 --plot "
@@ -105,7 +105,7 @@ def scatter(request: ScatterRequest) -> None:
     from ..report.text.scatter import text
 
     if request.plot is None:
-        refuse(request.context, "theme", because="without --plot nothing is drawn")
+        refuse_theme(request.context)
     document = _document(request)
     answer(document, request.json, text)
     if request.plot is not None:

@@ -101,21 +101,17 @@ def widths_of_turns(measurement: Measurement) -> dict[float, float]:
 
 def _width_of_scan(measurement: Measurement, rows, azimuth: float) -> float | None:
     """1/√m of ln = c + d s - m s² over the peak of one scan."""
-    geom, level = measurement.geom, np.exp(row_median(measurement.ln[rows]))
-    rows, level = rows[np.isfinite(level)], level[np.isfinite(level)]
-    if len(rows) < FEWEST:
+    if (above := _above_body(measurement, rows)) is None:
         return None
-    body = float(np.quantile(level, BODY))
+    rows, level, body = above
     lobe = level - body
     kept = (lobe > np.exp(-KEPT) * lobe.max()) & (level > CLEAR * body)
     if np.count_nonzero(kept) < FEWEST_OF_SCAN:
         return None
-    rows = rows[kept]
-    x, y = (each[rows, 0] / geom.v_z[rows, 0] for each in geom.v_xy)
+    x, y, ln = _facets(measurement.geom, rows[kept], lobe[kept])
     slope = x * np.cos(azimuth) + y * np.sin(azimuth)
     if not slope.min() < 0 < slope.max():
         return None
-    ln = np.log(lobe[kept] * geom.cos_cos[rows, 0]) - 2 * geom.ln_sec2_h[rows, 0]
     bend = np.polynomial.polynomial.polyfit(slope, ln, 2)[2]
     return float((-bend) ** -0.5) if bend < 0 else None
 
@@ -130,13 +126,24 @@ def two_azimuths(measurement: Measurement) -> tuple[float, float] | None:
     return first, second
 
 
-def _of_incidence(measurement: Measurement, rows, two) -> np.ndarray | None:
-    """M, (2, 2), of one incidence; None where its values do not tell it."""
+def _above_body(measurement: Measurement, rows) -> tuple[np.ndarray, np.ndarray, float] | None:
+    """The rows that have a value, their level [1/sr], and the body's; None for too few."""
     level = np.exp(row_median(measurement.ln[rows]))
     rows, level = rows[np.isfinite(level)], level[np.isfinite(level)]
-    if len(rows) < FEWEST:
+    return (rows, level, float(np.quantile(level, BODY))) if len(rows) >= FEWEST else None
+
+
+def _facets(geom, rows, lobe) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Both slopes of facets, and ln of their density in what they send: without masking f cos θi cos θr/(1 + |s|²)²."""
+    x, y = (each[rows, 0] / geom.v_z[rows, 0] for each in geom.v_xy)
+    return x, y, np.log(lobe * geom.cos_cos[rows, 0]) - 2 * geom.ln_sec2_h[rows, 0]
+
+
+def _of_incidence(measurement: Measurement, rows, two) -> np.ndarray | None:
+    """M, (2, 2), of one incidence; None where its values do not tell it."""
+    if (above := _above_body(measurement, rows)) is None:
         return None
-    body = float(np.quantile(level, BODY))
+    rows, level, body = above
     top = rows[np.argmax(level)]
     if retro_distance_deg(measurement.geom)[top, 0] < np.degrees(np.sqrt(measurement.geom.mirror_distance2[top, 0])):
         return None  # it is brightest toward the light, and no lobe of facets
@@ -148,10 +155,8 @@ def _of_incidence(measurement: Measurement, rows, two) -> np.ndarray | None:
         kept = lobe > np.exp(-KEPT) * peak[scan]
     if np.count_nonzero(kept) < FEWEST:
         return None
-    rows, scan, geom = rows[kept], scan[kept], measurement.geom
-    # the density of slopes in what facets send, without masking: f cos θi cos θr/(1 + |s|²)²
-    ln = np.log(lobe[kept] * geom.cos_cos[rows, 0]) - 2 * geom.ln_sec2_h[rows, 0]
-    x, y = (each[rows, 0] / measurement.geom.v_z[rows, 0] for each in measurement.geom.v_xy)
+    rows, scan = rows[kept], scan[kept]
+    x, y, ln = _facets(measurement.geom, rows, lobe[kept])
     if two is not None:
         return _along_two(x, y, scan, ln, two)
     of_scan = (scan[:, None] == np.unique(scan)).astype(float)

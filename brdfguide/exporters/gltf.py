@@ -6,27 +6,11 @@ details. There is no edge tint and no k. A mirror beside a finite part becomes K
 
 import json
 
-from ..models import term
 from ..physics.geometry import Geometry
 from ..printable import MOST_OF_A_COMMENT, short
-from ._nodes import Node, node_statement
+from ._gltf import NODE
+from ._nodes import node_statement
 from .exporter import ColouredSurface, Export, Exporter, comment_lines, number, rgb_numbers
-
-LAW = term("gltf")
-NODE = Node(
-    law=LAW,
-    roughness="roughness",
-    metalness="metallic",
-    index="ior",
-    weight="specular",
-    edge="",
-    coat="clearcoat",
-    coat_roughness="clearcoat_roughness",
-    coat_index="",
-    matt={"specular": 0.0, "roughness": 1.0},
-    by_schlick=True,
-    grain="anisotropy_strength",
-)
 
 
 def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:

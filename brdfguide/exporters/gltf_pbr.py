@@ -20,8 +20,9 @@ from ..models import term
 from ..physics import fresnel, grain, microfacet
 from ..physics.geometry import Geometry
 from ..physics.shader_optics import compensation, directional_albedo, schlick
+from ._gltf import NODE as GLTF
 from ._materialx import colour3, float_value, materialx_document, shader
-from ._nodes import Node, node_statement
+from ._nodes import node_statement
 from .exporter import ColouredSurface, Export, Exporter
 
 COAT_INDEX = 1.5
@@ -78,21 +79,7 @@ def node_mirror(
 
 
 LAW = replace(term("gltf"), module=__name__, brdf=node_brdf, mirror=node_mirror, pins=(), extremes=())
-NODE = Node(
-    law=LAW,
-    roughness="roughness",
-    metalness="metallic",
-    index="ior",
-    weight="specular",
-    edge="",
-    coat="clearcoat",
-    coat_roughness="clearcoat_roughness",
-    coat_index="",
-    matt={"specular": 0.0, "roughness": 1.0},
-    by_schlick=True,
-    masked_alike=True,
-    grain="anisotropy_strength",
-)
+NODE = replace(GLTF, law=LAW, masked_alike=True)
 ALWAYS = ("metallic", "roughness")  # the node's own defaults are another surface
 
 

@@ -1,9 +1,5 @@
 """The preview's objects among lights: against sums over all directions, shade in closed form, and the command."""
 
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
@@ -16,7 +12,7 @@ from brdfguide.report.figures import spheres
 from brdfguide.report.still_life import chequer, light_map, lit_by, standing
 from brdfguide.report.still_life.composition import HALF_WIDTH, Stage
 
-from ..conftest import ROOT
+from .test_render import run
 
 SIZE = 96
 
@@ -185,16 +181,6 @@ def test_a_difference_counts_steps_that_are_just_noticeable():
     np.testing.assert_allclose(steps, 3, rtol=0.02)
     assert np.all(spheres.difference_picture(np.zeros((2, 2))) == 1)
     np.testing.assert_allclose(spheres.difference_picture(np.full((1, 1), 99.0))[0, 0], spheres.MORE)
-
-
-def run(*words, cwd):
-    return subprocess.run(
-        [sys.executable, "-m", "brdfguide", "preview", *words],
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )
 
 
 def test_several_surfaces_make_a_sheet_without_differences_and_the_same_bytes_twice(tmp_path):

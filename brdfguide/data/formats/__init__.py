@@ -19,7 +19,7 @@ from ...opening import Held, is_plain
 from .. import conventions
 from ..measurement import Measurement
 from . import _open, _options, _parts, _rows, _unread
-from .format import TEXT_LIMIT, Format, Options, Source, check_wavelength
+from .format import TEXT_LIMIT, Format, Options, Source, beyond_arithmetic, check_wavelength
 
 HEAD = 65536  # bytes that the readers look at
 WRITTEN_AS = {  # what is typed -> the format
@@ -60,12 +60,9 @@ def read(path, *, wavelength=None, in_plane: bool = False, theta_max: float | No
 
 
 def _read(format: Format, source: Source, asked: Options, **selection) -> Measurement:
-    """A file's content as its format and the user say. Raises InputError.
-
-    Where a file's numbers are beyond arithmetic, what comes of them is no number, and is dropped or refused as such.
-    """
+    """A file's content as its format and the user say. Raises InputError."""
     _options.heeded(asked, format, source.name)
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+    with beyond_arithmetic():
         measurement = format.read(source, asked).noting(*source.findings)
     del source
     _options.without_effect(asked, measurement)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from ...errors import InputError, NothingLeft
 from ..blocks import Blocks, drawn
 from ..measurement import Measurement
+from .format import beyond_arithmetic
 
 DECIDES = ("--unit", "--quantity", "--mirror-side", "--columns", "--rotation-sense")  # what settles how rows are read
 
@@ -19,14 +20,23 @@ def in_parts(
     """
     settled: list[frozenset[str]] = []
 
+    def read() -> Iterator[Measurement]:
+        given = parts()
+        while True:
+            with beyond_arithmetic():
+                part = next(given, None)
+            if part is None:
+                return
+            yield part
+
     def draw(count: int, seed: int) -> tuple[Measurement, int]:
-        sample, size = drawn(parts(), count, seed)
+        sample, size = drawn(read(), count, seed)
         found = selected(sample)
         settled[:] = [decisions(found)]
         return found, size
 
     def every() -> Iterator[Measurement]:
-        for place, part in enumerate(parts(), 1):
+        for place, part in enumerate(read(), 1):
             try:
                 found = selected(part)
             except NothingLeft:

@@ -220,6 +220,11 @@ def wavelength_found(source: Source, found: prose.Wavelength | None, numbers: li
     return found.um, [Finding("wavelength-from-comment", text, option="--wavelength-nm")]
 
 
+def beyond_arithmetic() -> np.errstate:
+    """While a file is read: what comes of numbers beyond arithmetic is none, and is dropped or refused as such."""
+    return np.errstate(over="ignore", invalid="ignore", divide="ignore")
+
+
 def check_wavelength(source: Source, um, line: int | None = None) -> None:
     """Raises InputError for wavelengths [µm] outside 100 nm to 100 um."""
     um = np.atleast_1d(np.asarray(um, float))

@@ -14,13 +14,12 @@ import numpy as np
 from ...data import formats
 from ...data.measurement import Measurement
 from ...errors import InputError
-from ...physics import colour
 from ...physics.colour import CHANNEL_UM
 from ...physics.geometry import Geometry, rows
-from .._directions import half_width, judged_over, off_peak, rms_ln
-from .._shown import seen_of
-from ..exporter import ColouredSurface, Export, Exporter, Statement, refuse_mirror, status_of
+from .._directions import half_width, off_peak
+from ..exporter import ColouredSurface, Export, Exporter, Statement, refuse_mirror
 from .blurred import blurred
+from .in_table import held_in_table
 
 CLOSE = 0.01  # of the surface, off the peak
 STEEPEST_DEG = 89.5  # the last incidence and reflected angle
@@ -157,44 +156,13 @@ def table_of(target: str, surface: ColouredSurface, geom: Geometry | None, *, se
     """
     about_mirror = _counts_from_mirror(target)
     # even steps about the normal are wider than the lobe that a mirror is blurred to
-    original, lost = surface, () if about_mirror else refuse_mirror(surface, target, "zemax")
-    if about_mirror:
-        surface, lost = blurred(surface)
-    channels, um = surface.channels, np.broadcast_to(np.asarray(surface.wavelength, float), (len(surface.channels),))
-    single = len(channels) > 1 and not several
-    if single:
-        lost += ("the colour: the file holds its luminance; --channel writes one channel",)
-        channels, um = ("brdf",), np.array([0.555])
-
-    def brdf(directions: Geometry) -> np.ndarray:
-        if single:
-            return np.maximum(surface.rgb(directions) @ colour.LUMINANCE, 0.0)[:, None]
-        return surface.spectral(directions)
-
-    made, note = _closest(brdf, half_width(surface), about_mirror)
-
-    def shown(directions: Geometry) -> np.ndarray:
-        read = made.read(directions)
-        return np.repeat(read, 3, axis=1) if single else np.maximum(read @ surface.colour.matrix.T, 0.0)
-
-    where, wanted, over = judged_over(surface, geom, spectral=not single)
-    wanted = np.where(np.isfinite(wanted), brdf(where), np.nan)
-    rms = rms_ln(np.maximum(made.read(where), 1e-300), wanted)
+    kept, lost = blurred(surface) if about_mirror else (surface, refuse_mirror(surface, target, "zemax"))
+    held = held_in_table(surface, kept, lost, several=several)
+    made, note = _closest(held.brdf, half_width(kept), about_mirror)
     size = {"theta_i": len(made.theta_i), "azimuths": len(made.azimuth), "polars": len(made.polar)}
-    statement = Statement(
-        target,
-        status_of(rms, lost),
-        rms,
-        int(np.isfinite(wanted).any(axis=1).sum()),
-        over,
-        size,
-        lost,
-        (note,),
-        surface.colour.how,
-        seen_of(original, shown),
-        shown,
-    )
-    return GoniometerTable(made.measurement(channels, um, surface.name, surface.model.name), statement)
+    statement = held.stated(target, made.read, geom, size, note)
+    measurement = made.measurement(held.channels, held.wavelength, surface.name, surface.model.name)
+    return GoniometerTable(measurement, statement)
 
 
 def _counts_from_mirror(target: str) -> bool:

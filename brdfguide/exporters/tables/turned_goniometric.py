@@ -10,20 +10,18 @@ from types import SimpleNamespace
 import numpy as np
 
 from ...data.measurement import Measurement
-from ...physics import colour
 from ...physics.geometry import Geometry, rows
-from .._directions import half_width, judged_over, off_peak, rms_ln
-from .._shown import seen_of
-from ..exporter import ColouredSurface, Statement, status_of
+from .._directions import half_width, off_peak
+from ..exporter import ColouredSurface
 from .blurred import blurred
 from .goniometric import CLOSE, FINEST_DEG, STEEPEST_DEG, WIDEST_DEG, GoniometerTable
+from .in_table import held_in_table
 
 ROTATIONS_DEG = np.arange(0.0, 360.0, 15.0)
 THETA_I_DEG = np.arange(0.0, 86.0, 5.0)
 AZIMUTH_DEG = np.arange(0.0, 360.0, 10.0)
 FIRST, GROWTH = 0.12, 1.12  # first step from the mirror direction, of the narrower half width, and growth of the next
 TURNED_DEG = (0.0, 45.0, 90.0, 135.0)  # under which a width is looked for, and how far off the table is
-MIDDLE_UM = 0.555  # where a luminance is said to stand
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,17 +84,9 @@ def _angles(theta_i, azimuth, polar):
 
 def turned_table_of(target: str, surface: ColouredSurface, geom: Geometry | None) -> GoniometerTable:
     """The table of a surface with a grain and what it costs, in one channel: a colour becomes its luminance."""
-    original, (surface, lost) = surface, blurred(surface)
-    single = len(surface.channels) > 1
-    if single:
-        lost += ("the colour: the file holds its luminance; --channel writes one channel",)
-
-    def brdf(directions: Geometry) -> np.ndarray:
-        if single:
-            return np.maximum(surface.rgb(directions) @ colour.LUMINANCE, 0.0)[:, None]
-        return surface.spectral(directions)
-
-    made, measurement = _sampled(brdf, _narrowest(surface))
+    held = held_in_table(surface, *blurred(surface), several=False)
+    brdf = held.brdf
+    made, measurement = _sampled(brdf, _narrowest(held.surface))
     off = []
     for turn in TURNED_DEG:
         at, truth, where = off_peak(lambda each, turn=turn: brdf(each.at_azimuth(turn + 4.0)))
@@ -109,33 +99,11 @@ def turned_table_of(target: str, surface: ColouredSurface, geom: Geometry | None
     )
     note += "" if most <= 100 * CLOSE else f"; {100 * CLOSE:g} % could not be held"
 
-    def shown(directions: Geometry) -> np.ndarray:
-        read = made.read(directions)
-        return np.repeat(read, 3, axis=1) if single else np.maximum(read @ surface.colour.matrix.T, 0.0)
-
-    where_judged, wanted, over = judged_over(surface, geom, spectral=not single)
-    wanted = np.where(np.isfinite(wanted), brdf(where_judged), np.nan)
-    rms = rms_ln(np.maximum(made.read(where_judged), 1e-300), wanted)
-    statement = Statement(
-        target,
-        status_of(rms, lost),
-        rms,
-        int(np.isfinite(wanted).any(axis=1).sum()),
-        over,
-        {"rotations": len(ROTATIONS_DEG), "theta_i": len(THETA_I_DEG), "polars": len(made.polar)},
-        lost,
-        (note,),
-        surface.colour.how,
-        seen_of(original, shown),
-        shown,
-    )
-    channels = ("brdf",) if single else surface.channels
-    um = MIDDLE_UM if single else surface.wavelength
-    wavelength = np.broadcast_to(np.asarray(um, float), (len(channels),))
-    measurement = Measurement(
-        measurement.geom.at(wavelength), measurement.brdf, channels, name=surface.name, format=surface.model.name
-    )
-    return GoniometerTable(measurement, statement)
+    size = {"rotations": len(ROTATIONS_DEG), "theta_i": len(THETA_I_DEG), "polars": len(made.polar)}
+    statement = held.stated(target, made.read, geom, size, note)
+    at = measurement.geom.at(held.wavelength)
+    named = Measurement(at, measurement.brdf, held.channels, name=surface.name, format=surface.model.name)
+    return GoniometerTable(named, statement)
 
 
 def _narrowest(surface: ColouredSurface) -> float:

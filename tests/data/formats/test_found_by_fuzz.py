@@ -129,3 +129,13 @@ def test_a_value_that_none_can_be_is_no_neighbour_of_others(tmp_path, value):
     )
     noise.estimated_noise(measurement)
     assert np.count_nonzero(np.isnan(measurement.readings)) == 1
+
+
+def test_a_number_beyond_arithmetic_is_a_lost_value_in_a_table_of_parts_too(tmp_path, monkeypatch):
+    pyarrow = pytest.importorskip("pyarrow")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    columns = {"theta_i": [10.0, 30.0, 50.0], "theta_r": [10.0, 89.9, 50.0], "ccbrdf": [0.2, 1.7e308, 0.3]}
+    parquet.write_table(pyarrow.table(columns), tmp_path / "it.parquet")
+    monkeypatch.setattr("brdfguide.data.formats.parquet.LARGEST_CELLS", 1)
+    parts = list(formats.in_blocks(tmp_path / "it.parquet"))
+    assert [int(np.count_nonzero(part.has_value)) for part in parts] == [2]
