@@ -24,7 +24,7 @@ WORDS = {  # options of one meaning wherever they stand -> the words that they t
     "--lobe": ("ggx", "beckmann"),
     "--as": ("openpbr", "standard-surface", "gltf", "disney"),
 }
-CONVERTED = ("zemax", "fred", "lighttools", "astm", "speos", "tracepro", "csv", "merl")
+CONVERTED = ("zemax", "fred", "lighttools", "astm", "speos", "speos-anisotropic", "tracepro", "csv", "merl")
 
 
 def wanted(known: list[str]) -> list[str]:

@@ -16,7 +16,13 @@ EXAMPLES = (
     "convert fit.json paint.binary | brdfguide convert --from gltf --to openpbr base_color=0.8,0.1,0.1 roughness=0.4"
 )
 
-BY_SUFFIX = {".csv": "csv", ".binary": "merl", ".astm": "astm", ".brdf": "speos"}
+BY_SUFFIX = {
+    ".csv": "csv",
+    ".binary": "merl",
+    ".astm": "astm",
+    ".brdf": "speos",
+    ".anisotropicbsdf": "speos-anisotropic",
+}
 OF_SAMPLES = (
     "columns", "unit", "quantity", "mirror_side", "wavelength", "wavelength_nm", "select", "in_plane", "theta_max",
     "rotation_sense", "scale",
@@ -47,8 +53,8 @@ class ConvertRequest:
         Option(
             "--to",
             help=(
-                "zemax, fred, lighttools, astm, speos, tracepro, csv or merl; left out: by OUT's suffix. With --from "
-                "another shader, program or law."
+                "zemax, fred, lighttools, astm, speos, speos-anisotropic, tracepro, csv or merl; left out: by OUT's "
+                "suffix. With --from another shader, program or law."
             ),
         ),
     ] = None

@@ -47,16 +47,15 @@ def export(
 
 
 def _refuse_what_turns(surface: ColouredSurface, exporter: Exporter) -> None:
-    """Raises NoAnswer for a surface that looks different once it is turned in its plane, and a target that does not."""
+    """Raises Refused for a surface that looks different once it is turned in its plane, and a target that does not."""
     turning = _grained.terms_that_turn(surface)
     if not turning or exporter.averages or (exporter.grained and _grained.axis_of(surface) is not None):
         return
     why = turning[0].model.breaks["rotation"]
-    holds = ", ".join(name for name in names() if get(name).grained)
-    what = (
-        f"{exporter.name} does not turn with it; {holds} do" if not exporter.grained else "it has more than one grain"
-    )
-    raise NoAnswer(f"{turning[0].label} changes as the sample turns: {why}; {what}")
+    changes = f"{turning[0].label} changes as the sample turns: {why}"
+    if exporter.grained:
+        raise NoAnswer(f"{changes}; it has more than one grain")
+    raise Refused(exporter.name, f"{changes}, and its tables or numbers do not", exporter.turned)
 
 
 def held_best(

@@ -137,6 +137,7 @@ class Exporter:
     export: Callable[..., Export]
     named: bool = True  # its file holds the surface's name
     grained: bool = False  # whether it holds one grain
+    turned: str = "rgl"  # the nearest target that holds one, of a target that does not
     averages: bool = False  # whether a surface with a grain becomes its mean over all turns, which is said
     lobe: str = ""  # the law of models that its only lobe is; "": it has several, or any
 

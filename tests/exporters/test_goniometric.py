@@ -10,7 +10,7 @@ from brdfguide.physics.geometry import Geometry, rows
 
 from .conftest import EVERY_LAW, surface
 
-TARGETS = ("zemax", "fred", "lighttools", "astm", "speos", "tracepro", "csv")
+TARGETS = ("zemax", "fred", "lighttools", "astm", "speos", "speos-anisotropic", "tracepro", "csv")
 SATIN = surface("lambertian+ggx", lambertian__albedo=0.3, ggx__alpha=0.3, ggx__n=1.5)
 
 

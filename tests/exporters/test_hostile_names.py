@@ -58,10 +58,12 @@ COMMENTS = {
     "fred": "!!",
     "lighttools": "#",
     "speos": "written by brdfguide",  # the line of its description
+    "speos-anisotropic": "written by brdfguide",
     "tracepro": "File Name\t",
     "zemax": "#",
 }
-TABLES = ("astm", "csv", "fred", "lighttools", "speos", "tracepro", "zemax")  # with a line or more of comments
+# with a line or more of comments
+TABLES = ("astm", "csv", "fred", "lighttools", "speos", "speos-anisotropic", "tracepro", "zemax")
 XML = ("gltf-pbr", "mitsuba", "materialx", "openpbr", "standard-surface")
 TEXTS = [target for target in exporters.names() if target not in ("merl", "rgl", "rgl-spectral")]
 MODEL = models.get("lambertian+ggx")

@@ -28,6 +28,7 @@ WRITTEN_AS = {  # what is typed -> the format
     "lighttools": "lighttools-bsdf",
     "astm": "astm",
     "speos": "speos-brdf",
+    "speos-anisotropic": "speos",
     "tracepro": "tracepro",
     "csv": "table",
 }

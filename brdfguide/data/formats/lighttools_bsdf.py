@@ -58,6 +58,9 @@ def read(source: Source, options: Options) -> Measurement:
 def _measured(source, options, lists, blocks, skipped):
     channels = sorted({block["channel"] for block in blocks})
     incidences = sorted({block["AOI"] for block in blocks})
+    if len(planes := {block["POI"] for block in blocks}) > 1:
+        text = f"its blocks have {len(planes)} planes of incidence (POI), and how these count is published nowhere"
+        raise source.error(f"{text}; save it for one of them, or as a Zemax .bsdf")
     azimuth, radial = (
         a.reshape(-1) for a in np.meshgrid(lists["ScatterAzimuth"], lists["ScatterRadial"], indexing="ij")
     )
@@ -109,14 +112,15 @@ def _blocks(source, words, at, size):
 
 
 def _named(source, block, line):
-    """The block with its incidence as a number and its channel as (name, wavelength in µm)."""
+    """The block with its incidence and plane as numbers and its channel as (name, wavelength in µm)."""
     aoi = source.numbers([block.get("AOI", "0")], line)[0]
     nm = source.numbers([block.get("Wavelength", "0")], line)[0]
     tris = block.get("TristimulusValue", "")
     channel = f"{nm:g}nm" if nm > 0 else "brdf", nm / 1000
     if tris in ("TrisX", "TrisY", "TrisZ"):
         channel = tris.removeprefix("Tris"), 0.0
-    return {**block, "AOI": aoi, "channel": channel}
+    poi = source.numbers([block.get("POI", "0")], line)[0]
+    return {**block, "AOI": aoi, "POI": poi, "channel": channel}
 
 
 def _numbers(source, words, at, count, what):
@@ -135,7 +139,7 @@ def write(measurement: Measurement) -> tuple[str, list[str]]:
     grid = product_grid(measurement, about_mirror=False, what="LightTools")
     if len(grid.rotations) > 1:
         text = f"a LightTools file holds one rotation of the sample, there are {len(grid.rotations)}"
-        raise InputError(f"{measurement.name}: {text}; convert to zemax or speos")
+        raise InputError(f"{measurement.name}: {text}; convert to zemax or speos-anisotropic")
     azimuth, places = grid.whole_turn(LIGHT_AZIMUTH)
     totals = grid.totals()[0, :, 0]
     notes = about(measurement, "light from azimuth 90, mirror direction at 270", *grid.sentences)

@@ -3,8 +3,9 @@
 Title, mode, comment, description, anisotropy vector, flags, the kind of value (1: proportional to the BSDF, 0: to an
 intensity), rotations, incidences of each, then a spectrum: where its total was measured, and reflectances in percent at
 wavelengths [nm]; then the tables. One factor for each wavelength scales all tables: that which gives the table at the
-measured incidence its total. A spectrum of one value throughout is one channel. The guide puts the mirror direction at
-azimuth 0, and files of other programs at 180: the values decide, however slightly one side is brighter.
+measured incidence its total. A spectrum of one value throughout is one channel, of no wavelength. The guide puts the
+mirror direction at azimuth 0, and files of other programs at 180: the values decide, however slightly one side is
+brighter.
 
 Source: "Structure of Anisotropic BSDF files", Speos user's guide (Ansys 2024).
 """
@@ -13,15 +14,20 @@ import re
 
 import numpy as np
 
+from ...errors import InputError
 from ...finding import Finding
 from .. import stated_total
 from ..measurement import Measurement
 from . import _speos_binary
+from ._hemisphere import total
+from ._product_grid import product_grid
 from ._rotations import turns_of
 from ._sides import azimuths_on_their_side
 from ._speos import MIRROR_DEG, Table, Words, header
+from ._writing import about, angle, only_channel, value
 from .format import Format, Options, Source, check_zenith, measurement
 
+TITLE_WRITTEN = "OPTIS - Anisotropic BSDF surface file v11"
 TITLE = re.compile(rb"OPTIS - Anisotropic BSDF surface file", re.IGNORECASE)
 
 
@@ -45,7 +51,7 @@ def read(source: Source, options: Options) -> Measurement:
     alpha = _factor(source, theta_i, [table.scattered(kind) for table in tables[0]], measured)
     if not (np.all(np.isfinite(percent)) and np.all(percent >= 0)):
         raise source.error(f"found a reflectance of {percent.min():g} %, wanted 0 or more")
-    flat = bool(np.ptp(percent) <= 1e-6 * abs(percent[0]))
+    flat = bool(len(percent) > 1 and np.ptp(percent) <= 1e-6 * abs(percent[0]))
     shares = percent[:1] / 100 if flat else percent / 100
     angles, turned = _rows(source, theta_i, tables, kind)
     if not len(angles[0]):
@@ -130,6 +136,40 @@ def _scaled(alpha: float, measured: float, percent) -> Finding:
     return Finding("scaled-to-total", text, numbers=(("factor", alpha),))
 
 
+def write(measurement: Measurement) -> tuple[str, list[str]]:
+    """The measurement as a Speos `.anisotropicbsdf`, a table for each rotation and incidence, and sentences on what was
+    made of it.
+
+    Raises InputError for several channels, where the directions lie on no grid about the normal, and where nothing
+    scatters.
+    """
+    nm = only_channel(measurement, "Speos .anisotropicbsdf")
+    grid = product_grid(measurement, about_mirror=False, what="Speos")
+    azimuth, places = grid.whole_turn(180.0)
+    azimuth, places = np.append(azimuth, azimuth[0] + 360.0), np.append(places, places[0])
+    # what is written is what is scaled to the total
+    cells = np.vectorize(value)(np.swapaxes(grid.values[..., 0][:, :, places], -1, -2))
+    totals = total(grid.polar, azimuth, cells[0].astype(float))
+    brightest = int(np.argmax(totals))
+    if not totals[brightest] > 0:
+        raise InputError(f"{measurement.name}: it scatters nothing, and Speos scales its tables to what is scattered")
+    percent = f"{100 * float(totals[brightest]):.12g}"
+    lines = [TITLE_WRITTEN, "0", about(measurement)[0], "0", "", "1\t0\t0", "1\t0", "1", f"{len(grid.rotations)}"]
+    lines.append("\t".join(map(angle, grid.rotations)))
+    lines += [f"{len(grid.theta_i)}", "\t".join(map(angle, grid.theta_i))] * len(grid.rotations)
+    lines += [f"{angle(grid.theta_i[brightest])}\t0", "", "1", f"{nm:.9g}\t{percent}"]
+    for table in cells.reshape(-1, *cells.shape[2:]):
+        lines += [f"{len(grid.polar)} {len(azimuth)}", "\t" + "\t".join(map(angle, azimuth))]
+        lines += ["\t".join([angle(theta), *row]) for theta, row in zip(grid.polar, table, strict=True)]
+    return "\n".join(lines) + "\n", list(grid.sentences)
+
+
 FORMAT = Format(
-    "speos", (".anisotropicbsdf",), recognises, read, own_side=False, options=("average_phi_i", "rotation_sense")
+    "speos",
+    (".anisotropicbsdf",),
+    recognises,
+    read,
+    own_side=False,
+    options=("average_phi_i", "rotation_sense"),
+    write=write,
 )

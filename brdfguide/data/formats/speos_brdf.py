@@ -86,7 +86,7 @@ def write(measurement: Measurement) -> tuple[str, list[str]]:
     grid = product_grid(measurement, about_mirror=False, what="Speos")
     if len(grid.rotations) > 1:
         text = f"a Speos .brdf holds one rotation of the sample, there are {len(grid.rotations)}"
-        raise InputError(f"{measurement.name}: {text}; convert to zemax")
+        raise InputError(f"{measurement.name}: {text}; convert to speos-anisotropic")
     nm = wavelengths(measurement)
     turned, places = grid.whole_turn(180.0)
     turned, places = np.append(turned, turned[0] + 360.0), np.append(places, places[0])

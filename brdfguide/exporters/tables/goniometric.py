@@ -35,7 +35,7 @@ ABOUT_NORMAL = ((10.0, 10.0, 5.0), (5.0, 5.0, 2.5), (2.5, 4.0, 1.5))  # steps of
 
 
 OF_DENSE = ("average_phi_i", "wavelength")  # options that a dense table heeds when it is sampled
-ABOUT_THE_NORMAL = ("lighttools", "speos")  # formats whose angles count from the normal
+ABOUT_THE_NORMAL = ("lighttools", "speos", "speos-anisotropic")  # formats whose angles count from the normal
 WIDTH_DEG = 2.0  # taken for the half width of a lobe in a table, whose cells are wider
 
 
@@ -136,8 +136,9 @@ class GoniometerTable:
     statement: Statement
 
 
-def goniometric_exporter(module: str, suffix: str, what: str, *, several: bool) -> Exporter:
-    """The exporter to a format of such tables; `several` says that the format holds several channels."""
+def goniometric_exporter(module: str, suffix: str, what: str, *, several: bool, turned: str = "zemax") -> Exporter:
+    """The exporter to a format of such tables; `several` says that the format holds several channels, `turned` names
+    the nearest that holds rotations."""
 
     def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
         """The text and its Statement."""
@@ -145,7 +146,7 @@ def goniometric_exporter(module: str, suffix: str, what: str, *, several: bool) 
         text, notes = formats.write(exporter.name, made.measurement)
         return Export(text, replace(made.statement, notes=(*made.statement.notes, *notes)))
 
-    exporter = Exporter(module, suffix, what, export, named=False)
+    exporter = Exporter(module, suffix, what, export, named=False, turned=turned)
     return exporter
 
 

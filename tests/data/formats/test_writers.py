@@ -16,8 +16,8 @@ from ...conftest import ROOT
 MODEL = models.get("lambertian+ggx")
 VALUES = {"lambertian.albedo": 0.2, "ggx.alpha": 0.25, "ggx.n": 1.5}
 TARGETS = formats.writers()
-GRIDS = ("zemax", "lighttools", "speos")  # that hold tables of incidences, azimuths and angles
-ONE_CHANNEL = ("zemax", "fred", "lighttools")
+GRIDS = ("zemax", "lighttools", "speos", "speos-anisotropic")  # that hold tables of incidences, azimuths and angles
+ONE_CHANNEL = ("zemax", "fred", "lighttools", "speos-anisotropic")
 EXAMPLES = sorted((ROOT / "examples").glob("*.csv"))
 
 
