@@ -251,9 +251,7 @@ FITTED = {
         subject="parameter",
         effect=Effect.AT_BOUND,
     ),
-    "axis-undetermined": Flag(
-        "The lobe is round within its error: it has no axis.", WARNING, subject="parameter", effect=Effect.LOOSENS
-    ),
+    "axis-undetermined": Flag("The lobe is round within its error: no axis.", WARNING, "", "parameter", Effect.LOOSENS),
     "coarse": Flag("Far behind the best: searched for, not refined.", effect=Effect.UNREFINED),
     "at-the-floor": Flag("No law would do much better: the data are the limit."),
     "coarse-scan": Flag(
@@ -266,6 +264,7 @@ FITTED = {
         WARNING,
         effect=Effect.OF_MISFIT,
     ),
+    "f0-above-dielectrics": Flag("A dielectric was fitted that reflects more than any.", WARNING, "--kind metal"),
     "f0-below-metals": Flag("A metal was fitted that reflects less than any.", WARNING, "--kind dielectric"),
     "few-values": Flag("Models with as many parameters as there are values were left out.", WARNING),
     "floor-of-reciprocity": Flag("What is left is a difference between a value and that of exchanged directions."),

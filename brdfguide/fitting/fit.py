@@ -10,7 +10,8 @@ from ..data.measurement import Measurement
 from ..errors import choices
 from ..finding import Finding
 from ..models import Composite
-from ..models.candidates import candidate_label
+from ..models.candidates import candidate_label, has_edge, without_edge
+from ..models.extensions import edge_starts
 from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
 from . import drift, starting_grid, weights
@@ -145,7 +146,7 @@ def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOpti
     together = variance * standard_errors.serial_widening(correlation) * standard_errors.common_channels(part)
     warnings = list(standard_errors.parameter_doubts(layout, values, stderr, best.normal, together))
     warnings += [wrong] if wrong and standard_errors.worth_telling(wrong) else []
-    warnings += [warning for warning in (_disagreement(layout, searched.ends),) if warning]
+    warnings += [each for each in (standard_errors.starts_disagree(layout, searched.ends),) if each]
     slopes_alone = sigma_bound.rough_regime_doubts(
         layout, on.measurement, best.shared, best.per_channel, together, stderr
     )
@@ -338,6 +339,9 @@ def search(model: Composite, data: Prepared, options: FitOptions, given: Given =
     layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
     narrow = replace(layout, channels=few.brdf.shape[1]).walking()
     misfit = data.search.misfit(narrow, metric(options.metric))
+    if has_edge(narrow.model) and not given.starts:
+        held = search(without_edge(narrow.model), data, options)
+        given = Given(edge_starts(narrow.model, held.values))
     starts = [
         starting_grid.amplitudes_by_channel(narrow, few, dict(start)) if given.levels else dict(start)
         for start in given.starts
@@ -381,20 +385,3 @@ def _spread_over_channels(per_channel, channels: int):
         return np.zeros((channels, 0))
     at = few_channels(channels)
     return np.stack([np.interp(np.arange(channels), at, column) for column in per_channel.T], axis=1)
-
-
-def _disagreement(layout: Layout, ends) -> Finding | None:
-    """Two starts that ended equally well in different places."""
-    if len(ends) < 2:
-        return None
-    (best, _, error), (other, _, worse) = ends[:2]
-    if worse > 1.02 * error + 1e-6 or np.max(np.abs(best - other), initial=0.0) < 0.1:
-        return None
-    per_channel = np.zeros((layout.channels, len(layout.per_channel)))
-    ends_at = [layout.decode(shared, per_channel) for shared in (best, other)]
-    one, two = (
-        ", ".join(f"{key} {layout.parameters[key].outside(values[key]):.3g}" for key in layout.shared)
-        for values in ends_at
-    )
-    text = f"two starts ended equally well in different places: {one}; or {two}"
-    return Finding("starts-disagree", text, "warning", "look at both")

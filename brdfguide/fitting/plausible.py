@@ -3,8 +3,12 @@
 from collections.abc import Sequence
 from math import isfinite, log
 
+import numpy as np
+
+from ..data.metal_or_dielectric import LEAST_METAL, LOW_DEG, MOST_DIELECTRIC
 from ..flags import Effect
 from ..models import Model
+from ..physics import fresnel
 from .ranked import BETTER, Row
 
 MOST_NAMED = 3  # in an aside
@@ -17,11 +21,13 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
 
     After the verdict "dielectric" a lobe has Fresnel's factor; none whose rise toward grazing is far from the data's
     while another's is near; none at a bound while another is inside; where the kind is not known, none of the other
-    kind than the best.
+    kind than the best, but a metal where that is a dielectric with a lobe as bright as none has.
     """
     aside = ""
     if kind == "dielectric":
         rows, aside = _sifted(rows, _has_fresnel, aside, "no Fresnel factor, which a dielectric's lobe has")
+    elif kind is None and too_bright_for_a_dielectric(best) is not None:
+        rows, aside = _sifted(rows, is_metal, aside, "a lobe as bright near the normal as no dielectric's surface")
     elif kind is None:
         rows, aside = _sifted(
             rows,
@@ -63,6 +69,25 @@ def is_metal(row: Row) -> bool:
     """Whether it is a metal's lobe without a body: k is what was fitted."""
     bodies = any(term.model.is_body for term in row.fit.model.terms)
     return not bodies and any(key.endswith(".k") for key in row.fit.model.free)
+
+
+def too_bright_for_a_dielectric(row: Row) -> float | None:
+    """What the lobes of one that is no metal return of light at the normal, where no dielectric's surface can; None
+    where it can, and where light from near the normal was not measured.
+
+    Sum of height x F0, a lobe under a coat left out, median over the channels. A third above the brightest dielectric,
+    half way to the darkest metal, so that an absolute scale a little off decides nothing.
+    """
+    if is_metal(row) or row.growth is None or row.growth["theta_i_deg"][0] > LOW_DEG:
+        return None
+    lobes = [term for term in row.fit.model.terms if term.model.has_index and not term.model.base]
+    values = {**row.fit.model.defaults(), **row.fit.values}
+    level = sum(
+        values[term.key(term.model.amplitude or "")] * fresnel.f0(values[term.key("n")], values[term.key("k")])
+        for term in lobes
+    )
+    found = float(np.median(level))
+    return found if found**2 > MOST_DIELECTRIC * LEAST_METAL else None
 
 
 def _inside(row: Row) -> bool:

@@ -5,12 +5,12 @@ from math import exp, expm1, log
 
 import numpy as np
 
-from ..data.metal_or_dielectric import LEAST_METAL
+from ..data.metal_or_dielectric import LEAST_METAL, MOST_DIELECTRIC
 from ..finding import Finding
 from ..flags import Effect
 from ..physics import fresnel
 from .choosing import trusted
-from .plausible import is_metal
+from .plausible import is_metal, too_bright_for_a_dielectric
 from .ranked import Ranking, Row
 
 MOST_ERROR = log(1.5)  # rms ln: typically 50 % off (ours)
@@ -23,7 +23,7 @@ def distrusted(ranking: Ranking, *, anyway: bool = False) -> Ranking:
     That is where even the best model is far off, by `MOST_ERROR` and by `MOST_NOISE` times the noise, and where every
     candidate that was refined ended at a bound.
     """
-    ranking = ranking.warned(*_no_metal(ranking.recommended))
+    ranking = ranking.warned(*_no_metal(ranking.recommended), *_no_dielectric(ranking.recommended))
     text = _far_off(trusted(ranking.rows), ranking.noise) or _at_bounds(ranking.rows)
     if not text:
         return ranking
@@ -42,6 +42,18 @@ def _no_metal(row: Row) -> tuple[Finding, ...]:
         return ()
     text = f"the fitted F0 of {most:.2g} is below any metal's ({LEAST_METAL:g} or more)"
     return (Finding("f0-below-metals", text, "warning", "a dark dielectric, or a wrong scale", "--kind dielectric"),)
+
+
+def _no_dielectric(row: Row) -> tuple[Finding, ...]:
+    """A doubt about a body whose lobe reflects more than any dielectric's."""
+    level = too_bright_for_a_dielectric(row)
+    if level is None:
+        return ()
+    text = (
+        f"its lobe returns {level:.2g} at the normal, more than any dielectric's surface ({MOST_DIELECTRIC:g} at most)"
+    )
+    consequence = "a metal, flakes under a clear coat, or a wrong scale"
+    return (Finding("f0-above-dielectrics", text, "warning", consequence, "--kind metal"),)
 
 
 def _far_off(rows: Sequence[Row], noise: float) -> str:

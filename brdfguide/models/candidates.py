@@ -211,6 +211,12 @@ def with_edge(model: Composite) -> Composite:
     return replace(model, fixed=held, start={**model.start, **dict.fromkeys(freed, 1.0)})
 
 
+def without_edge(model: Composite) -> Composite:
+    """The same metal with n held at 1."""
+    held = {term.key("n"): 1.0 for term in model.terms if term.model.has_index}
+    return replace(model, fixed={**model.fixed, **held})
+
+
 def has_edge(model: Composite) -> bool:
     """Whether n and k are both free."""
     return any(key.endswith(".k") and f"{key.removesuffix('k')}n" not in model.fixed for key in model.free)

@@ -59,6 +59,12 @@ def edges(model: Composite, values: Mapping) -> Iterator[Extension]:
     """F at 82 degrees of a metal, which F0 carried until now; not beside a height of its own."""
     if not is_metallic(model) or has_edge(model) or set(heights(model)).intersection(model.free):
         return
+    adds = "an edge of its own in Fresnel's curve, F at 82 degrees, for each channel"
+    yield Extension(adds, with_edge(model), edge_starts(model, values))
+
+
+def edge_starts(model: Composite, values: Mapping) -> tuple[dict, ...]:
+    """Values of a metal with an edge of its own that have the F0 of these, and another edge each."""
     starts = []
     for n in EDGE_INDICES:
         start = dict(values)
@@ -67,8 +73,7 @@ def edges(model: Composite, values: Mapping) -> Iterator[Extension]:
             k2 = (normal * (n + 1) ** 2 - (n - 1) ** 2) / np.maximum(1 - normal, 1e-6)
             start |= {term.key("n"): np.full_like(normal, n), term.key("k"): np.sqrt(np.maximum(k2, 1e-4))}
         starts.append(start)
-    adds = "an edge of its own in Fresnel's curve, F at 82 degrees, for each channel"
-    yield Extension(adds, with_edge(model), tuple(starts))
+    return tuple(starts)
 
 
 def _lobes(model: Composite, values: Mapping) -> Iterator[Extension]:

@@ -7,6 +7,8 @@ from brdfguide.data.measurement import Measurement
 from brdfguide.models.surface import Surface
 from brdfguide.physics.geometry import in_plane, rows
 
+from .. import synthetic
+
 SCAN_I, SCAN_R = (
     each.ravel() for each in np.meshgrid(np.arange(5.0, 76.0, 14.0), np.arange(-75.0, 76.0, 5.0), indexing="ij")
 )
@@ -32,3 +34,21 @@ def test_a_white_standard_is_a_body_alone_seed_16():
     answer = fit(Measurement(GEOM, 0.95 / np.pi * np.exp(noise), ("550 nm",)))
     assert answer.recommended.name == "lambertian" and answer.recommended.rms_ln < 0.012
     assert answer.document["ranking"][0]["candidate"] == "lambertian", "the recommended row is the first"
+
+
+def test_a_made_metal_of_which_the_kind_is_not_told_is_answered_as_the_metal_it_is_seed_0():
+    """A body of 0 under a lobe of 1.26 times a dielectric's F0 errs as little, and returns 0.55 at the normal."""
+    truth = {"ggx.alpha": 0.2, "ggx.n": 3.2, "ggx.k": 3.3}
+    data = synthetic.surface(models.get("ggx"), synthetic.scan(), truth, noise=0.02)
+    answer = fit(data, timing=False)
+    assert answer.judged.known is None
+    assert answer.recommended.name == "ggx (metal, edge free)"
+    assert "lambertian+ggx (height free)" in answer.document["because"]
+
+
+def test_a_dielectric_that_needs_a_lobe_as_bright_as_none_has_is_said():
+    truth = {"ggx.alpha": 0.2, "ggx.n": 3.2, "ggx.k": 3.3}
+    data = synthetic.surface(models.get("ggx"), synthetic.scan(), truth, noise=0.02)
+    answer = fit(data, ["lambertian+ggx (height free)"], timing=False)
+    said = [each["text"] for each in answer.document["warnings"] if each["code"] == "f0-above-dielectrics"]
+    assert said == ["its lobe returns 0.55 at the normal, more than any dielectric's surface (0.25 at most)"]

@@ -2,18 +2,21 @@
 
 from dataclasses import replace
 
+import pytest
+
 from brdfguide.finding import Finding
 from brdfguide.fitting.choosing import picked
 from brdfguide.fitting.fit import Fit
+from brdfguide.fitting.plausible import too_bright_for_a_dielectric
 from brdfguide.fitting.ranked import HeldOut, Row
 from brdfguide.models import candidates
 from brdfguide.models.surface import Surface
 
 
-def row(name: str, error: float, free: int, *, tied=True, rise: float = 10.0, measured: float = 10.0) -> Row:
+def row(name: str, error: float, free: int, *, tied=True, rise=10.0, measured=10.0, values=None, lowest=10.0) -> Row:
     model = candidates.named(name)
-    fit = Fit(Surface(model, {}, ("550 nm",)), {}, None, error, free, 1, 0.0, True)
-    growth = {"r_mirror": rise, "r_mirror_data": measured}
+    fit = Fit(Surface(model, values or {}, ("550 nm",)), {}, None, error, free, 1, 0.0, True)
+    growth = {"theta_i_deg": [lowest, 75.0], "r_mirror": rise, "r_mirror_data": measured}
     return Row(fit, 1, tied, error, {}, {"ln": error, "seen": 1.0}, 0.0, 0.0, 1.0, 10.0 * free, True, growth=growth)
 
 
@@ -65,6 +68,23 @@ def test_a_metal_is_no_simpler_dielectric():
     pick, because = picked(rows, kind=None)
     assert pick is rows[0] and "ggx (metal) has another kind of surface, which these data leave open" in because
     assert picked(rows, kind="metal")[0] is rows[1]
+
+
+def test_a_dielectric_as_bright_near_the_normal_as_none_gives_way_to_the_metal_that_ties_with_it():
+    """n 4.9 and 1.25 times its F0 return 0.55; a height of 0.4 under the same n returns 0.17, as diamond does."""
+    metal = row("ggx (metal, edge free)", 0.101, 3)
+    bright, ordinary, grazing = (
+        row("lambertian+ggx (height free)", 0.1, 2, values={"ggx.n": 4.9, "ggx.scale": height}, lowest=lowest)
+        for height, lowest in ((1.25, 10.0), (0.4, 10.0), (1.25, 50.0))
+    )
+    assert too_bright_for_a_dielectric(bright) == pytest.approx(1.25 * (3.9 / 5.9) ** 2)
+    pick, because = picked((bright, metal))
+    assert pick is metal and "has a lobe as bright near the normal as no dielectric's surface" in because
+    assert picked((bright, metal), kind="dielectric")[0] is bright
+    for each in (ordinary, grazing):  # where light from near the normal was not measured, that level is a guess
+        assert too_bright_for_a_dielectric(each) is None and picked((each, metal))[0] is each
+    assert picked((bright,))[0] is bright
+    assert too_bright_for_a_dielectric(metal) is None
 
 
 def test_a_growth_far_from_the_data_s_loses_to_one_that_is_near():

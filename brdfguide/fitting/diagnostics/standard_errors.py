@@ -329,3 +329,20 @@ def discrepancy(residuals: np.ndarray, correlation: float, score: float) -> Find
         "",
         numbers,
     )
+
+
+def starts_disagree(layout: Layout, ends) -> Finding | None:
+    """Two starts that ended equally well in different places."""
+    if len(ends) < 2:
+        return None
+    (best, _, error), (other, _, worse) = ends[:2]
+    if worse > 1.02 * error + 1e-6 or np.max(np.abs(best - other), initial=0.0) < 0.1:
+        return None
+    per_channel = np.zeros((layout.channels, len(layout.per_channel)))
+    ends_at = [layout.decode(shared, per_channel) for shared in (best, other)]
+    one, two = (
+        ", ".join(f"{key} {layout.parameters[key].outside(values[key]):.3g}" for key in layout.shared)
+        for values in ends_at
+    )
+    text = f"two starts ended equally well in different places: {one}; or {two}"
+    return Finding("starts-disagree", text, "warning", "look at both")

@@ -27,7 +27,8 @@ def reflectances(fit: Fit, measurement: Measurement) -> dict:
             out |= _with_edge(fit, measurement, label)
             continue
         slope = 8 * n * k / ((n + 1) ** 2 + k**2) ** 2  # dF0/dk
-        out[f"{label}.F0"] = _entry(fresnel.f0(n, k), slope * np.asarray(fit.stderr[key]), key)
+        normal = fresnel.f0(n, k)
+        out[f"{label}.F0"] = _entry(normal, _farther_side(normal, slope * np.asarray(fit.stderr[key])), key)
     return out
 
 
@@ -41,13 +42,26 @@ def _with_edge(fit: Fit, measurement: Measurement, label: str) -> dict:
         of_each = [partial(_reflectance, label=label, deg=deg, channel=channel) for channel in range(channels)]
         value = np.reshape([of(fit.values) for of in of_each], np.shape(fit.values[keys["k"]]))
         error = np.reshape(ln_stderrs(fit, few, of_each), np.shape(value))
-        out[f"{label}.{name}"] = _entry(value, value * error, None if told else keys[replaced])
+        out[f"{label}.{name}"] = _entry(value, _farther_side(value, value * error), None if told else keys[replaced])
     return out
 
 
 def _reflectance(values: Mapping, label: str, deg: float, channel: int) -> float:
     n, k = (np.ravel(values[f"{label}.{name}"])[channel] for name in "nk")
     return float(fresnel.fresnel(np.cos(np.radians(deg)), n, k))
+
+
+def _farther_side(value, stderr) -> np.ndarray:
+    """Standard error of a reflectance: half the way to the farther end of an interval of two, formed in ln F/(1 - F).
+
+    F ends at 1. A silver fitted too bright would seem surer than it is: there F hardly changes with n and k.
+    """
+    value, stderr = np.asarray(value, float), np.asarray(stderr, float)
+    odds = value / np.maximum(1 - value, 1e-12)
+    with np.errstate(over="ignore", invalid="ignore"):  # of what the data do not tell
+        times = np.exp(2 * stderr / np.maximum(value * (1 - value), 1e-300))
+        ends = odds / times / (1 + odds / times), np.where(np.isfinite(times), odds * times / (1 + odds * times), 1.0)
+    return np.where(np.isfinite(stderr), np.maximum(value - ends[0], ends[1] - value) / 2, stderr)
 
 
 def _entry(value, stderr, replaced: str | None) -> dict:
