@@ -2,23 +2,20 @@
 
 How much a law varies over a disc follows from the disc's radius over the scale on which the law varies there: its width
 near the mirror direction, half the way to it elsewhere. A few points of a rule that is exact for polynomials are enough
-while that ratio is small; beyond, points of the disc and points of the lobe share the work, each weighed by all the
-densities it could have come from (balance heuristic, Veach and Guibas 1995).
+while that ratio is small; beyond, the disc is integrated in polar coordinates about the mirror direction.
 """
 
-from math import cos, pi, sqrt
+from math import cos, pi
 
 import numpy as np
 
 from ..numerics import sphere
 
 # radius over scale up to which a rule does
-ONE_POINT, FOUR_POINTS, SEVEN_POINTS, TWELVE_POINTS = 0.05, 0.5, 1.2, 2.5
+ONE_POINT, FOUR_POINTS, SEVEN_POINTS = 0.05, 0.5, 1.2
 WIDE = 0.05  # radius [rad] from which even a flat law varies over the disc, by its cosine
-DISC_POINTS, LOBE_POINTS, TAIL_POINTS = 24, 16, 12  # where points of the disc and of the lobe share the work
-TAIL = 4.0  # width of the tail's points over that of the lobe's
-# 1/p and 1/p² of p³ = p + 1: points that fill the square evenly
-EVEN_STEPS = np.array([0.7548776662466927, 0.5698402909980532])
+AZIMUTHS, ALONG = 12, 8  # rays about the mirror direction, and points on each
+EVEN_STEP = 0.7548776662466927  # 1/p of p³ = p + 1: its multiples fill an interval evenly
 FLIP = np.array([-1.0, -1.0, 1.0])  # a direction to its mirror direction
 
 
@@ -32,46 +29,64 @@ def lit_points(to_light, to_camera, radius: float, width: float) -> tuple[np.nda
     # from the mirror direction to the rim of the disc
     gap = np.maximum(2 * np.arcsin(np.clip(np.linalg.norm(image - to_light, axis=1) / 2, 0, 1)) - radius, 0.0)
     ratio = radius / np.maximum(width, gap / 2)
-    rule = np.searchsorted([ONE_POINT, FOUR_POINTS, SEVEN_POINTS, TWELVE_POINTS], ratio)
+    rule = np.searchsorted([ONE_POINT, FOUR_POINTS, SEVEN_POINTS], ratio)
     rule = np.maximum(rule, int(radius > WIDE))
-    rule = np.where(np.abs(to_light[:, 2]) < np.sin(radius), 4, rule)  # cut by the horizon
+    rule = np.where(np.abs(to_light[:, 2]) < np.sin(radius), len(_RULES), rule)  # cut by the horizon
     parts = []
-    for which in range(5):
+    for which in range(len(_RULES) + 1):
         pixel = np.flatnonzero(rule == which)
         if not len(pixel):
             continue
-        if which < 4:
+        if which < len(_RULES):
             area, azimuth, share = _RULES[which]
             directions = _on_disc(to_light[pixel], radius, area, azimuth)
             shares = np.broadcast_to(share, directions.shape[:2])
         else:
-            directions, shares = _shared(to_light[pixel], image[pixel], radius, np.maximum(width, gap[pixel]), pixel)
+            directions, shares = _about_the_mirror_direction(to_light[pixel], image[pixel], radius, width, pixel)
         parts.append((directions.reshape(-1, 3), shares.ravel(), np.repeat(pixel, directions.shape[1])))
     directions, shares, pixel = (np.concatenate(each) for each in zip(*parts, strict=True))
     above = (directions[:, 2] > 0) & (shares > 0)
     return directions[above], shares[above], pixel[above]
 
 
-def _shared(to_light, image, radius: float, width, pixel):
-    """Points of the disc, of the lobe and of its tail, (pixels, points, 3), with their shares."""
-    width = width[:, None]
-    steps = np.arange(LOBE_POINTS + TAIL_POINTS)[:, None] * EVEN_STEPS
-    # each pixel shifts its points, so that their errors average out over the picture
-    u, v = np.moveaxis(np.remainder(steps + ((pixel[:, None] + 1) * EVEN_STEPS)[:, None], 1.0), 2, 0)
-    mean = np.broadcast_to(image[:, None], (*v.shape, 3))
-    count = np.array([DISC_POINTS, LOBE_POINTS, TAIL_POINTS])
-    directions = np.concatenate(
-        [
-            sphere.cap(to_light, radius, DISC_POINTS),
-            sphere.near(mean[:, :LOBE_POINTS], width, u[:, :LOBE_POINTS], v[:, :LOBE_POINTS]),
-            sphere.near(mean[:, LOBE_POINTS:], TAIL * width, u[:, LOBE_POINTS:], v[:, LOBE_POINTS:]),
-        ],
-        axis=1,
-    )
-    inside = np.sum((directions - to_light[:, None]) ** 2, axis=2) <= (2 * np.sin(radius / 2)) ** 2 * (1 + 1e-9)
-    even = 1 / (2 * pi * (1 - cos(radius)))
-    lobe, tail = (sphere.near_density(directions, image[:, None], factor * width) for factor in (1.0, TAIL))
-    return directions, np.where(inside, even / (count[0] * even + count[1] * lobe + count[2] * tail), 0.0)
+def _about_the_mirror_direction(to_light, image, radius: float, width: float, pixel):
+    """Points of the disc in polar coordinates about the mirror direction, (pixels, points, 3), with their shares.
+
+    A ray of azimuth φ lies in the disc between two angles ρ from the mirror direction,
+    cos d cos ρ + sin d cos φ sin ρ = cos(radius), with d from there to the disc's middle. On it Gauss's points stand in
+    the mean of two distributions of R = 1 - cos ρ: evenly over the disc, and as 1/(1 + R/W)², as a lobe falls.
+    """
+    cos_d = np.clip(np.sum(to_light * image, axis=1), -1.0, 1.0)[:, None]
+    sin_d = np.linalg.norm(np.cross(to_light, image), axis=1)[:, None]
+    phi, of_phi = _azimuths(cos_d, sin_d, radius, pixel)
+    middle = np.arctan2(sin_d * np.cos(phi), cos_d)
+    half = np.arccos(np.clip(cos(radius) / np.maximum(np.hypot(sin_d * np.cos(phi), cos_d), 1e-12), -1.0, 1.0))
+    first = (1 - np.cos(np.maximum(middle - half, 0.0)))[..., None]
+    span = np.maximum((1 - np.cos(np.minimum(middle + half, pi)))[..., None] - first, 0.0)
+    near = first + 1 - cos(width)  # R + W at the nearer end
+    b = 2 * near + span - 2 * _ALONG * span
+    x = 4 * _ALONG * near / (b + np.sqrt(b * b + 8 * _ALONG * near * span))  # place on the ray, 0 to 1 in R
+    density = 0.5 + 0.5 * near * (near + span) / (near + span * x) ** 2  # of the points, over dx
+    share = of_phi[..., None] * _ALONG_SHARE * span / density / (2 * pi * (1 - cos(radius)))
+    toward = sphere.unit(to_light - cos_d * image)
+    toward = np.where(sin_d > 1e-9, toward, sphere.tangents(image)[0])
+    across = np.cross(image, toward)
+    local = sphere.from_angles(1 - np.clip(first + span * x, 0.0, 2.0), phi[..., None])
+    place = (slice(None), None, None)
+    points = local[..., :1] * toward[place] + local[..., 1:2] * across[place] + local[..., 2:] * image[place]
+    return points.reshape(len(pixel), -1, 3), share.reshape(len(pixel), -1)
+
+
+def _azimuths(cos_d, sin_d, radius: float, pixel):
+    """Azimuths (pixels, AZIMUTHS) about the mirror direction, 0 toward the disc's middle, and what each stands for: all
+    around where that direction is within the disc, Chebyshev's points between the two that touch it elsewhere."""
+    step = (np.arange(AZIMUTHS) + 0.5) * pi / AZIMUTHS
+    # each pixel turns its points, so that their errors average out over the picture
+    turned = 2 * step + np.remainder((pixel[:, None] + 1) * EVEN_STEP, 1.0) * 2 * pi / AZIMUTHS
+    widest = np.arcsin(np.minimum(np.sin(radius) / np.maximum(sin_d, 1e-12), 1.0))
+    inside = cos_d >= cos(radius)
+    phi = np.where(inside, turned, widest * np.cos(step))
+    return phi, np.where(inside, 2 * pi / AZIMUTHS, widest * np.sin(step) * pi / AZIMUTHS)
 
 
 def _on_disc(axis, radius: float, area, azimuth) -> np.ndarray:
@@ -85,18 +100,11 @@ def _even_ring(count: int, turn: float = 0.0) -> np.ndarray:
     return (np.arange(count) + turn) * 2 * pi / count
 
 
-def _twelve_points():
-    """Degree 7: 4 points on the axes and 8 on the diagonals (Stroud 1971, S2 7-1)."""
-    root = sqrt(29)
-    area = np.repeat([0.75, 2 * (27 - 3 * root) / 104, 2 * (27 + 3 * root) / 104], 4)
-    share = np.repeat([2 / 27, (551 + 41 * root) / 6264, (551 - 41 * root) / 6264], 4)
-    return area, np.concatenate([_even_ring(4), _even_ring(4, 0.5), _even_ring(4, 0.5)]), share
-
-
-# square of the radius, azimuth and weight of the points of rules of degree 1, 3, 5 and 7 on a disc (Stroud 1971)
+# square of the radius, azimuth and weight of the points of rules of degree 1, 3 and 5 on a disc (Stroud 1971)
 _RULES = (
     (np.zeros(1), np.zeros(1), np.ones(1)),
     (np.full(4, 0.5), _even_ring(4), np.full(4, 0.25)),
     (np.array([0.0, *[2 / 3] * 6]), np.array([0.0, *_even_ring(6)]), np.array([0.25, *[0.125] * 6])),
-    _twelve_points(),
 )
+_ALONG, _ALONG_SHARE = (0.5 * each for each in np.polynomial.legendre.leggauss(ALONG))
+_ALONG = _ALONG + 0.5

@@ -30,7 +30,7 @@ def through_the_disc(surface, to_light, to_camera, radius, points=20_000):
     return np.array(found)
 
 
-@pytest.mark.parametrize("ratio", [0.04, 0.3, 0.69, 1.0, 2.0])
+@pytest.mark.parametrize("ratio", [0.04, 0.3, 0.69, 1.0, 2.0, 4.0])
 def test_a_disc_as_wide_as_part_of_a_lobe_is_integrated_seed_3(ratio):
     """A point in place of a disc of 0.69 widths is 20 % too bright in the middle of a GGX lobe: 1 + 0.69² (√2 - 1)."""
     rng = np.random.default_rng(3)
@@ -42,8 +42,8 @@ def test_a_disc_as_wide_as_part_of_a_lobe_is_integrated_seed_3(ratio):
     directions, shares, pixel = lamps.lit_points(light, camera, radius, width)
     values = surface.brdf(rows(Geometry.from_vectors(directions, camera[pixel])))[:, 0] * directions[:, 2] * shares
     found = np.bincount(pixel, values, PIXELS)
-    assert found == pytest.approx(through_the_disc(surface, light, camera, radius), rel=0.06)
-    assert np.mean(found) == pytest.approx(np.mean(through_the_disc(surface, light, camera, radius)), rel=0.01)
+    assert found == pytest.approx(through_the_disc(surface, light, camera, radius), rel=0.03)
+    assert np.mean(found) == pytest.approx(np.mean(through_the_disc(surface, light, camera, radius)), rel=0.004)
 
 
 def test_a_soft_box_much_wider_than_a_lobe_has_no_holes_seed_4():
@@ -55,8 +55,8 @@ def test_a_soft_box_much_wider_than_a_lobe_has_no_holes_seed_4():
     directions, shares, pixel = lamps.lit_points(light, camera, 0.35, width)
     values = surface.brdf(rows(Geometry.from_vectors(directions, camera[pixel])))[:, 0] * directions[:, 2] * shares
     expected = through_the_disc(surface, light, camera, 0.35, 40_000)
-    assert np.bincount(pixel, values, PIXELS) == pytest.approx(expected, rel=0.35)
-    assert np.bincount(pixel, values, PIXELS).mean() == pytest.approx(expected.mean(), rel=0.05)
+    assert np.bincount(pixel, values, PIXELS) == pytest.approx(expected, rel=0.05)
+    assert np.bincount(pixel, values, PIXELS).mean() == pytest.approx(expected.mean(), rel=0.02)  # its points are few
 
 
 def test_shares_of_a_disc_add_up_to_one_and_hold_the_mean_cosine():
