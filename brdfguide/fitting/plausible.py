@@ -75,17 +75,15 @@ def too_bright_for_a_dielectric(row: Row) -> float | None:
     """What the lobes of one that is no metal return of light at the normal, where no dielectric's surface can; None
     where it can, and where light from near the normal was not measured.
 
-    Sum of height x F0, a lobe under a coat left out, median over the channels. A third above the brightest dielectric,
-    half way to the darkest metal, so that an absolute scale a little off decides nothing.
+    Sum of height x F0, a lobe under a coat or with a k left out, median over the channels. A third above the brightest
+    dielectric, half way to the darkest metal, so that an absolute scale a little off decides nothing.
     """
     if is_metal(row) or row.growth is None or row.growth["theta_i_deg"][0] > LOW_DEG:
         return None
-    lobes = [term for term in row.fit.model.terms if term.model.has_index and not term.model.base]
-    values = {**row.fit.model.defaults(), **row.fit.values}
-    level = sum(
-        values[term.key(term.model.amplitude or "")] * fresnel.f0(values[term.key("n")], values[term.key("k")])
-        for term in lobes
-    )
+    values, level = {**row.fit.model.defaults(), **row.fit.values}, np.zeros(1)
+    for term in row.fit.model.terms:
+        if term.model.has_index and not term.model.base and not np.any(values[term.key("k")]):
+            level = level + values[term.key(term.model.amplitude or "")] * fresnel.f0(values[term.key("n")])
     found = float(np.median(level))
     return found if found**2 > MOST_DIELECTRIC * LEAST_METAL else None
 
