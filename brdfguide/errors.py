@@ -1,6 +1,7 @@
 """What can go wrong, and the exit status that says so. `printable` is imported where something has gone wrong."""
 
-MOST_CHOICES = 60  # that are all told where one of them is spelt alike
+MOST_CHOICES = 30  # that are all told
+LISTED = ("material", "model")  # by a command of their name
 MOST_NAMES = 2000  # of a folder, among which one spelt alike is looked for
 
 
@@ -79,6 +80,10 @@ def choices(kind: str, found: str, known) -> InputError:
     near = nearest_words(found.lower(), known, 3, 0.6)
     if near and len(known) > MOST_CHOICES:
         return InputError(f"no {kind} called '{short(found)}'; did you mean {' or '.join(near)}?")
+    if len(known) > MOST_CHOICES and kind in LISTED:
+        return InputError(
+            f"no {kind} called '{short(found)}', nor one like it; `brdfguide {kind}s` lists all {len(known)}"
+        )
     hint = f"did you mean {' or '.join(near)}? " if near else ""
     return InputError(f"no {kind} called '{short(found)}'; {hint}there are: {', '.join(known)}")
 

@@ -39,6 +39,9 @@ WORDS = {
     "What is seen and read": {
         "theta_i, theta_r": "angles of the light and of the view from the normal; 0 is straight down",
         "grazing": "light or view almost along the surface, near 90°",
+        "reciprocal": "the same with light and detector exchanged, as it is for every real surface",
+        "hemispherical reflectance": "the share of the light from one direction that goes out again in all together",
+        "JND": "a just noticeable difference: what is barely seen where one picture takes the other's place",
         "growth 10 to 75 deg": "how much brighter the mirror direction is at 75° than at 10°: tells laws apart",
         "75 over 10 deg": "the same of a recommended model: x6 means six times as bright; `image` is its mirror image",
         "domain": "what the report's rules are made for: opaque surfaces with random bumps, the same from all sides",

@@ -1,33 +1,23 @@
-"""What the documentation shows as typed and printed: `python -m tests.transcripts` prints every block anew.
+"""Running what `commands` finds in a page, and whether it prints what the page shows.
 
-In a block of the language `console` a line that starts with `$ ` is a command and the lines below it are what it prints
-on standard output; `...` stands for what was left out. The commands of a page run in one folder, in their order, beside
-`examples/`.
+`python -m tests.transcripts` prints every block of the language `console` anew.
 """
 
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from .conftest import ROOT
 
 BLOCK = re.compile(r"```console\n(.*?)```", re.S)
+PROMPT = re.compile(r"^\$ ", re.M)
 NUMBER = re.compile(r"\d+\.\d+")
 FULL = 14  # characters, from which a number is printed in full
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SHOWN = [page for page in PAGES if BLOCK.search(page.read_text())]
-
-
-def commands(page: Path) -> Iterator[tuple[str, str]]:
-    """(command, what the page prints under it)."""
-    for block in BLOCK.findall(page.read_text()):
-        for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
-            command, _, shown = part.partition("\n")
-            yield command, shown.strip("\n")
 
 
 def alike(said: str, shown: str) -> bool:
@@ -71,20 +61,22 @@ def run(command: str, folder: Path, path: str) -> subprocess.CompletedProcess:
 
 def printed_anew(page: Path, path: str) -> str:
     """The page with what its commands print now; where `...` stands it is left as it is."""
+    from .commands import commands, furnished
+
     with TemporaryDirectory() as folder:
-        if page.name == "README.md":
-            run("brdfguide examples examples", Path(folder), path)
+        furnished(page, Path(folder), path)
+        printed = []
+        for command, shown in commands(page):
+            done = run(command, Path(folder), path)
+            assert done.returncode == 0, f"{page}: {command}: {done.stderr}"
+            if shown is not None:
+                printed.append(f"{shown}\n" if "..." in shown.splitlines() else done.stdout)
 
-        def block(found: re.Match) -> str:
-            parts = []
-            for part in re.split(r"^\$ ", found.group(1), flags=re.M)[1:]:
-                command, _, shown = part.partition("\n")
-                done = run(command, Path(folder), path)
-                assert done.returncode == 0, f"{page}: {command}: {done.stderr}"
-                parts.append(f"$ {command}\n{shown if '...' in shown.splitlines() else done.stdout}")
-            return "```console\n" + "".join(parts) + "```"
+    def block(found: re.Match) -> str:
+        parts = [f"$ {part.partition(chr(10))[0]}\n{printed.pop(0)}" for part in PROMPT.split(found.group(1))[1:]]
+        return "```console\n" + "".join(parts) + "```"
 
-        return BLOCK.sub(block, page.read_text())
+    return BLOCK.sub(block, page.read_text())
 
 
 if __name__ == "__main__":

@@ -100,7 +100,7 @@ class ExportWork:
     force: bool = False
     command: str = ""
     schema: ClassVar[str] = "brdfguide/export/1"
-    header: ClassVar[tuple[str, ...]] = ("target", "status", "off")
+    header: ClassVar[tuple[str, ...]] = ("target", "written", "off")
     right: ClassVar[tuple[int, ...]] = (2,)
 
     def asked(self) -> dict[str, Any]:

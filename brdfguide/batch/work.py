@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import expm1
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -58,8 +59,8 @@ class FitWork:
     products: tuple[Product, ...] = ()
     command: str = ""
     schema: ClassVar[str] = "brdfguide/fit/1"
-    header: ClassVar[tuple[str, ...]] = ("recommended", "off", "rms ln", "seen L*", "held-out")
-    right: ClassVar[tuple[int, ...]] = (1, 2, 3, 4)
+    header: ClassVar[tuple[str, ...]] = ("recommended", "off", "seen L*", "held-out")
+    right: ClassVar[tuple[int, ...]] = (1, 2, 3)
 
     def asked(self) -> dict[str, Any]:
         shader = {"basis_from": None if self.beyond.basis_from is None else str(self.beyond.basis_from)}
@@ -89,9 +90,8 @@ class FitWork:
         return (
             best["candidate"],
             off_words(best["off_percent"]),
-            f"{best['rms_ln']:.4f}",
             "-" if best["seen"] is None else f"{best['seen']:.1f}",
-            "-" if held is None else f"{held:.4f}",
+            "-" if held is None else off_words(100 * expm1(min(held, 50.0))),
         )
 
 

@@ -196,7 +196,8 @@ def _summary(told: _Told, batch: Batch) -> None:
         resume = resume if kept else "with --out FOLDER answers are kept, and a second run goes on from there"
         remark(f"stopped: {told.rows - told.missing} of {told.rows} {batch.what} done{kept}; {resume}")
     elif kept or batch.many.shard:
-        remark(f"{told.rows} {batch.what}, {told.before} answered before{kept}", batch.quiet)
+        what = batch.what if told.rows != 1 else batch.what.removesuffix("s")
+        remark(f"{told.rows} {what}, {told.before} answered before{kept}", batch.quiet)
 
 
 def refuse_unseen(context: Context, many: Many, json_asked: bool, *names: str) -> None:

@@ -1,6 +1,7 @@
 """Options about many surfaces, shared by the commands that answer them."""
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Annotated
@@ -75,8 +76,11 @@ class Many:
 
     def is_many(self, words: list[str]) -> bool:
         """Whether there is a row for each, rather than one answer told in full."""
-        asked = self.files_from or self.out or self.shard or self.scheduler
-        return bool(asked) or len(words) != 1 or os.path.isdir(words[0]) or self._is_pattern(words[0])
+        return bool(self.out or self.shard or self.scheduler) or self.is_several(words)
+
+    def is_several(self, words: list[str]) -> bool:
+        """Whether there may be more than one: a list, several names, a folder or a pattern."""
+        return bool(self.files_from) or len(words) != 1 or os.path.isdir(words[0]) or self._is_pattern(words[0])
 
     @staticmethod
     def _is_pattern(word: str) -> bool:
@@ -92,8 +96,9 @@ class Many:
         """Raises InputError for those that could do nothing for a single answer."""
         refuse(context, *(each.name for each in fields(self)), because=ONE)
 
-    def labels(self, context: Context, words: list[str]) -> list[str]:
-        """Every name that is meant, those of this shard alone. Raises InputError for options that could do nothing."""
+    def labels(self, context: Context, words: list[str], is_ours: Callable[[Path], bool] | None = None) -> list[str]:
+        """Every name that is meant, those of this shard alone; of folders what `is_ours`, or else what some format
+        claims. Raises InputError for options that could do nothing."""
         from ..batch.listing import expanded, from_list
         from ._options import remark
 
@@ -108,7 +113,7 @@ class Many:
         if not folders:
             refuse(context, "include", "recurse", because="they are of folders, and none is named")
         include = tuple(filter(None, (each.strip() for each in (self.include or "").split(","))))
-        found = expanded([*words, *listed], include, self.recurse, _is_readable)
+        found = expanded([*words, *listed], include, self.recurse, is_ours or _is_readable)
         if not found.labels:
             raise InputError(f"{self.files_from or 'no file'}: found no name; wanted at least one")
         if found.passed_over:

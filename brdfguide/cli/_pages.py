@@ -30,17 +30,20 @@ def _table(header: tuple[str, ...], rows) -> str:
     return "\n".join([line(header), "|" + "---|" * len(header), *map(line, rows)])
 
 
+MAN_WIDTH = 72  # columns of a text that `man` indents by seven
+
+
 def _names() -> list[str]:
     """Commands in the order of the help."""
     listed = [name for names in GROUPS.values() for name in names]
     return listed + [name for name in catalog.names("cli") if name not in listed]
 
 
-def _help_of(words: list[str]) -> str:
+def _help_of(words: list[str], width: int = 80) -> str:
     out = io.StringIO()
     with redirect_stdout(out):
         app = build([words[0]] if len(words) > 1 else _names())
-        app(words, prog_name="brdfguide", standalone_mode=False, terminal_width=80, max_content_width=80)
+        app(words, prog_name="brdfguide", standalone_mode=False, terminal_width=width, max_content_width=width)
     return "\n".join(line.rstrip() for line in out.getvalue().rstrip().split("\n"))
 
 
@@ -162,7 +165,7 @@ def man_page() -> str:
         "[OPTIONS]",
     ]
     for name in _names():
-        body = _help_of([name, "--help"]).replace("\\", "\\\\").replace("-", "\\-").replace("'", "\\(aq")
+        body = _help_of([name, "--help"], MAN_WIDTH).replace("\\", "\\\\").replace("-", "\\-").replace("'", "\\(aq")
         shown = "\n".join("\\&" + line if line[:1] in (".", "'") else line for line in body.split("\n"))
         lines += [f".SH {name.upper()}", ".nf", shown, ".fi"]
     lines += [".SH EXIT STATUS", "0 answered, 1 no trustworthy answer, 2 bad usage or input, 130 interrupted."]

@@ -116,7 +116,7 @@ def print_ranking(document: dict, ranked, measurement, more: str, output: Output
         sketch = _sketch(ranked, measurement)
         text = terminal.coloured_text(printable.document(document), sketch=sketch, notes=not output.quiet, full=full)
         say(text, shown=True)
-        tell(more, end="\n" if more else "")
+        tell(more.removeprefix("\n"), end="\n" if more else "")  # a line has ended already
     else:
         from ..report.text import ranking
 

@@ -69,10 +69,19 @@ def whisper(text: str, end: str = "\n") -> None:
     from ..printable import lines
 
     try:
-        sys.stderr.write(lines(text) + end)
+        sys.stderr.write(_on_screen(lines(text)) + end)
         sys.stderr.flush()
     except OSError:
         _nowhere(sys.stderr)
+
+
+def _on_screen(text: str) -> str:
+    """Folded where standard error is a terminal; in a file a sentence is a line."""
+    if not sys.stderr.isatty():
+        return text
+    from ..report.text.folding import page, screen_width
+
+    return page(text, screen_width(sys.stderr))
 
 
 def failed(error: OSError) -> int:

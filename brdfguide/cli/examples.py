@@ -35,9 +35,16 @@ def examples(
             raise InputError("--force: without a folder nothing is written")
         tell("\n".join(map(str, names)))
         return
-    if there := [name for name in names if taken(folder / name) and not force]:
+    fresh = [name for name in names if not _holds(folder / name, source / name)]
+    if there := [name for name in fresh if taken(folder / name) and not force]:
         raise InputError(f"{folder / there[0]} exists; --force replaces it")
-    for name in names:
+    for name in fresh:
         made((folder / name).parent)
         write_whole(folder / name, (source / name).read_bytes())
-    remark(f"wrote {len(names)} files to {folder}", quiet)
+    before = f"; {len(names) - len(fresh)} were there" if len(fresh) < len(names) else ""
+    remark(f"wrote {len(fresh)} files to {folder}{before}", quiet)
+
+
+def _holds(path: Path, source: Path) -> bool:
+    """Whether the very file is there already."""
+    return path.is_file() and path.read_bytes() == source.read_bytes()

@@ -156,8 +156,9 @@ def put(made, output: Path, request: ExportRequest) -> list[Path]:
 
     if str(output) == "-":
         refuse(request.context, "force", because="standard output holds no file to replace")
+        why = "--json is printed there" if request.json else "it is not one text"
         if made.beside or isinstance(made.content, bytes) or request.json:
-            raise InputError(f"{request.to} with these options cannot go to standard output; name a file with -o")
+            raise InputError(f"{request.to} cannot go to standard output: {why}; name a file with -o")
         write_out(made.content)
         return []
     files = exporters.files_of(made, output)

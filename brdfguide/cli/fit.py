@@ -1,6 +1,5 @@
 """`brdfguide fit DATA`: fits the candidate models to a measurement and ranks them."""
 
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -176,12 +175,12 @@ def fit_many(request: FitRequest, words: list[str]) -> int:
     context, many, output = request.context, request.many, request.output
     refuse_unseen(context, many, output.json, *BEYOND)
     refuse(context, "full", because="a surface has one row; --json and --out hold everything")
-    if len(words) == 1 and not (request.group or many.files_from or os.path.isdir(words[0])):
+    several = bool(request.group) or many.is_several(words)
+    if not several:
         refuse(context, "jobs", because=ONE)
     if many.out is None:
         refuse(context, "products", because="they lie beside the answers of --out")
     products = listed(request.products) if request.products else []
-    several = bool(request.group) or len(words) != 1 or many.files_from is not None or os.path.isdir(words[0])
     for kind, path in ((REPORT, request.pictures.report), (RESIDUALS, request.residuals)):
         products += [patterned(kind, path, several)] if path else []
     if request.pictures.plot:

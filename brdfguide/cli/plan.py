@@ -13,8 +13,8 @@ from ._request import refuse
 from ._scene import SceneOption
 
 EXAMPLES = (
-    "Examples: brdfguide plan --budget 16 -o plan.csv --plot plan.png | brdfguide plan --after plan.csv --budget 8 | "
-    "brdfguide plan porcelain --scans --budget 3 --in-plane"
+    "Examples: brdfguide plan --budget 16 -o plan.csv --plot plan.png | "
+    "brdfguide plan --after measured.csv --budget 8 | brdfguide plan porcelain --scans --budget 3 --in-plane"
 )
 INSTRUMENT = "Instrument"
 MOST = 512

@@ -11,7 +11,7 @@ from ._options import QuietOption, on_terminal, remark
 EXAMPLES = (
     'Examples: brdfguide preview "lambertian+ggx ggx.alpha=0.1" -o look.png | '
     "brdfguide preview fit.json --compare fit.json#lambertian+phong --light back -o pair.png | "
-    "brdfguide preview ggx --row alpha=0.1..0.9 -o row.png | brdfguide preview fits/*.json -o sheet.png"
+    "brdfguide preview ggx --row alpha=0.1..0.9 -o row.png | brdfguide preview fits/answers/*/*.json -o sheet.png"
 )
 LARGE, SMALL, FEW = 512, 256, 2  # pixels of a surface, where there are few and where there are more
 MOST = 60  # surfaces of a sheet

@@ -90,7 +90,7 @@ def _recommend_many(request: RecommendRequest, words: list[str]) -> int:
     refuse_unseen(context, many, output.json, "explain")
     models = expressions(request.models)
     work = AdviceWork(models=models, anyway=request.anyway, explain=request.explain, timing=output.timing)
-    tasks = tasks_of(many.labels(context, words), work)
+    tasks = tasks_of(many.labels(context, words, lambda path: path.suffix in (".yaml", ".yml")), work)
     batch = Batch(
         context=context, many=many, work=work, kind="recommend", json=output.json, quiet=output.quiet, what="surfaces"
     )

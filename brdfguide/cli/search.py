@@ -1,6 +1,7 @@
 """`brdfguide search DIR 'satin, kind=dielectric'`: surfaces among many answers, by words, numbers and looks."""
 
 from dataclasses import dataclass
+from math import expm1
 from pathlib import Path
 from typing import Annotated
 
@@ -104,12 +105,19 @@ def _entry(row: dict, near=None) -> dict:
 
 def _table(found: list[dict]) -> str:
     from ..report.text.table import columns
+    from ..report.text.values import off_words
 
     if not found:
         return "nothing matches"
-    header = tuple(name.replace("_", " ").replace("seen from", "L* away") for name in found[0])
-    lines = [tuple(map(_cell, each.values())) for each in found]
-    return columns(header, lines, right=tuple(range(3, len(header))))
+    near = "seen_from" in found[0]
+    lines = []
+    for each in found:
+        rms = each["rms_ln"]
+        off = "-" if rms is None else off_words(100 * expm1(min(rms, 50.0)))
+        line = [_cell(each[name]) for name in ("file", "recommended", "gloss60", "albedo")]
+        lines.append([*line, off, *([_cell(each["seen_from"])] if near else [])])
+    header = ("file", "recommended", "gloss60", "albedo", "off", *(("L* away",) if near else ()))
+    return columns(header, lines, right=tuple(range(2, len(header))))
 
 
 def _cell(value) -> str:

@@ -176,7 +176,7 @@ def side_of(geom: Geometry, brdf) -> Side:
     if middle >= 0.02 and largest > 0:
         return Side(
             "as_read",
-            f"the mirror side is {np.exp(largest):.3g} times brighter than the side of the light",
+            f"the mirror side is {_times(largest)} times brighter than the side of the light",
             True,
             **numbers,
         )
@@ -184,7 +184,7 @@ def side_of(geom: Geometry, brdf) -> Side:
         return Side(
             "untold", "both sides are equally bright: the mirror side cannot be told from the values", False, **numbers
         )
-    times = f"{np.exp(-largest):.3g}"
+    times = _times(-largest)
     if growth > 0.1 or len(order) == 1:
         certain = largest < -np.log(4) and len(order) > 1
         return Side(
@@ -201,6 +201,11 @@ def side_of(geom: Geometry, brdf) -> Side:
             **numbers,
         )
     return Side("untold", f"one side is {times} times brighter but does not change toward grazing", False, **numbers)
+
+
+def _times(ln_ratio: float) -> str:
+    """A ratio to three digits, without an exponent up to a million."""
+    return f"{float(f'{np.exp(ln_ratio):.3g}'):g}"
 
 
 def _blocked(geom: Geometry, brdf) -> Side | None:

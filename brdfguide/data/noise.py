@@ -50,18 +50,23 @@ def noise_findings(measurement: Measurement):
     worth = estimated_noise(measurement)
     if worth.relative is None and not any(worth.absolute):
         return
-    dim = f" and {_between_channels(worth.absolute)}/sr, the dark level's doubt" if any(worth.absolute) else ""
+    dim = (
+        f" and {_between_channels(worth.absolute)}/sr, the doubt of the instrument's zero"
+        if any(worth.absolute)
+        else ""
+    )
     level = worth.relative or 0.0
     numbers = (("relative", level), ("absolute_per_sr", float(np.median(worth.absolute))))
-    text = f"single values scatter by {level:.2g} (relative, from their neighbours){dim}"
+    share = f"{100 * level:.2g} %" if level > 1e-4 else "less than 0.01 %"
+    text = f"single values scatter about their neighbours by {share}{dim}"
     yield Finding("noise", text, "warning" if level > 0.15 else "note", numbers=numbers)
     lost = int(np.count_nonzero(measurement.usable & (measurement.brdf < worth.limit)))
     if lost > 0.02 * measurement.brdf.size:
         text = (
             f"{lost} of {measurement.brdf.size} values lie below {_between_channels(worth.limit)}/sr, ten times the "
-            f"dark level's doubt: upper limits"
+            f"doubt of the instrument's zero: upper limits only"
         )
-        consequence = "errors are told over the others"
+        consequence = "errors are counted over the others"
         yield Finding("below-dark-level", text, consequence=consequence, numbers=(("values", lost),))
 
 

@@ -37,8 +37,8 @@ def quantity_findings(m: Measurement, level):
     bound = "at least " if level.how == "plane" else ""
     numbers = tuple((f"at_{angle:g}_deg", value) for angle, value in zip(level.theta_i_deg, level.values, strict=True))
     text = (
-        f"hemispherical reflectance {bound}{min(level.values):.3g}..{most:.3g} within {level.to_deg:.0f} degrees, "
-        f"brightest channel"
+        f"of the light that comes in, {bound}{_percent(min(level.values), most)} goes out within {level.to_deg:.0f} "
+        f"degrees of the normal (hemispherical reflectance{', brightest channel' if len(m.channels) > 1 else ''})"
     )
     if weighted or least <= ENERGY_SLACK:
         yield Finding("reflectance", text, numbers=numbers)
@@ -58,6 +58,12 @@ def quantity_findings(m: Measurement, level):
         consequence = "no model that keeps energy can follow; the scale may be relative"
         option = "--quantity reflectance-factor, or --anyway" if not known else "--anyway"
         yield Finding("too-bright", f"{text}: more light than came in", "error", consequence, option, numbers)
+
+
+def _percent(low: float, high: float) -> str:
+    """One share, or from one to another where angles of incidence differ."""
+    ends = [f"{100 * each:.2g}" if each < 1 else f"{100 * each:.0f}" for each in (low, high)]
+    return f"{ends[0]} %" if ends[0] == ends[1] else f"{ends[0]} to {ends[1]} %"
 
 
 def _is_phong(m: Measurement) -> bool:
@@ -127,15 +133,13 @@ def _reciprocity(tested, weighted: bool, fades: bool, numbers) -> Finding:
             ("offset_per_sr", dim.offset),
         )
         return Finding("dim-values-off", text, "warning", consequence, "--metric cube-root", numbers + dim_numbers)
+    pairs = f"with light and detector exchanged {tested.pairs} pairs of values"
     if off or tested.ratio > 1.35:
         how = f", as (cos theta_r/cos theta_i)^{tested.power:.2f}" if off else ""
-        text = f"not reciprocal: {tested.pairs} exchanged pairs differ by a median factor {tested.ratio:.3g}{how}"
+        text = f"not reciprocal: {pairs} differ by a factor of {tested.ratio:.3g} (median){how}"
         option = ""
         if off and abs(tested.power) > 0.5:
             option = "--quantity brdf-cos" if tested.power > 0 else "--quantity brdf-cos-i"
         return Finding("not-reciprocal", text, "warning", "no physical model fits better than this", option, numbers)
-    return Finding(
-        "reciprocal",
-        f"reciprocal: {tested.pairs} exchanged pairs agree to a median factor {tested.ratio:.3g}",
-        numbers=numbers,
-    )
+    text = f"reciprocal: {pairs} agree within a factor of {tested.ratio:.3g} (median)"
+    return Finding("reciprocal", text, numbers=numbers)

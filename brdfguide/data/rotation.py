@@ -33,14 +33,16 @@ def _spread_findings(m: Measurement):
             consequence, settles = "a law without a grain is an average over the turns", ("rotation",)
             yield Finding("anisotropic", text, "warning", consequence, "--average-phi-i", numbers, settles=settles)
         else:
-            text = f"isotropic: turning the sample changes values by {np.expm1(spread):.1%} (rms)"
+            text = (
+                f"isotropic, the same from all sides: turning the sample changes values by {np.expm1(spread):.1%} (rms)"
+            )
             yield Finding("isotropic", text, numbers=numbers)
         return
-    text = "one rotation of the sample: whether it is isotropic cannot be told" + (
+    text = "the sample was not turned: whether it looks the same from all sides (isotropic) cannot be told" + (
         " from the plane of incidence" if m.in_plane else ""
     )
     yield Finding(
-        "rotation-untold", text, consequence="a brushed surface would be fitted for one direction of brushing only"
+        "rotation-untold", text, consequence="a brushed surface would be fitted for this one direction of its grain"
     )
 
 

@@ -8,6 +8,7 @@ part then count alike.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
+from math import exp, expm1
 
 import numpy as np
 
@@ -237,7 +238,7 @@ def _lacks(node: Node, surface: ColouredSurface, choice: Choice) -> str:
     else:
         why = "its lobe is GGX's, and this one has another shape"
     high = _off_up_to(HIGH_DEG, surface, choice)
-    return why if high is None else f"{why}; up to {HIGH_DEG:g} degrees rms ln {high:.2g}"
+    return why if high is None else f"{why}; up to {HIGH_DEG:g} degrees {_off(high)} off"
 
 
 def _off_up_to(most_deg: float, surface: ColouredSurface, choice: Choice) -> float | None:
@@ -320,7 +321,7 @@ def readings(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometr
     for words, law in node.law.readings.items():
         other: Callable = replace(node.law, brdf=law)
         error = rms_ln(other(geom, **{**node.law.defaults(), **choice.values}), wanted)
-        found.append(f"as MaterialX's nodes evaluate it; with {words}, as other programs have it, rms ln {error:.2g}")
+        found.append(f"as MaterialX's nodes evaluate it; with {words}, as other programs have it, {_off(error)} off")
     return tuple(found)
 
 
@@ -337,7 +338,7 @@ def _one_width(node: Node, choice: Choice, surface: ColouredSurface, geom: Geome
         geom, wide, narrow, values["axis"]
     )
     error = rms_ln(node.law(geom, **values) * alike / apart, wanted)
-    return (f"MaterialX masks light and view with one width, √(across along), however they stand: rms ln {error:.2g}",)
+    return (f"MaterialX masks light and view with one width, √(across along), however they stand: {_off(error)} off",)
 
 
 def _streak(node: Node, axis: float) -> tuple[str, ...]:
@@ -359,3 +360,8 @@ def node_statement(
     if axis is not None:
         notes += _one_width(node, choice, surface, geom) + _streak(node, axis)
     return choice, choice.statement(target, surface, lost=what_it_costs(node, surface, choice), notes=notes)
+
+
+def _off(error: float) -> str:
+    """An rms of ln as people say it."""
+    return f"{100 * expm1(error):.2g} %" if error < 0.6 else f"a factor {exp(min(error, 20.0)):.2g}"

@@ -65,9 +65,9 @@ def _gamma(label: str, lamp: Lamp) -> Finding:
 
 
 def _lamp_found(label: str, lamp: Lamp) -> Finding:
-    x, y, z = lamp.position
+    x, y, z = (round(float(each), 2) + 0.0 for each in lamp.position)  # no -0
     text = (
-        f"{label}: lamp found from the reference's shading at ({x:.3g}, {y:.3g}, {z:.3g}) radii, phase "
+        f"{label}: lamp found from the reference's shading at ({x:.2f}, {y:.2f}, {z:.2f}) radii, phase "
         f"{phase_deg(lamp.position):.1f} degrees, {lamp.distance:.3g} radii away; the shading fits to {lamp.rms:.2%}"
     )
     numbers = (

@@ -90,7 +90,8 @@ def unseen_finding(doubts: list[Doubts]) -> Finding:
     lamp, centre, stray = (max(getattr(each, name) for each in doubts) for name in ("lamp_deg", "centre_px", "stray"))
     text = (
         f"every doubt includes faults that would not be noticed: a lens that blurs by {BLUR_PX:g} px, lamps to "
-        f"{lamp:.2g} degrees, the outline to {centre:.2g} px, stray light of {stray:.2g} of the brightest"
+        f"{lamp:.2g} degrees, the outline to {centre:.2g} px"
+        + (f", stray light of {stray:.2g} of the brightest" if stray else "")
     )
     numbers = (("blur_px", BLUR_PX), ("lamp_deg", lamp), ("centre_px", centre), ("stray", stray))
     return Finding("unseen-faults", text, numbers=numbers)

@@ -1,6 +1,7 @@
 """`recommend`, `inspect` and `export` over many surfaces: a row each, and what one alone would say."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -35,6 +36,16 @@ def test_many_descriptions_are_a_row_each_and_one_outside_stops_none(tmp_path):
     rows = json.loads(again)["rows"]
     alone = json.loads(answered("recommend porcelain --no-timing --json")[1])
     assert rows[0]["answered_before"] and rows[0]["recommend"]["candidates"] == alone["candidates"]
+
+
+def test_of_a_folder_recommend_takes_the_descriptions(tmp_path):
+    (tmp_path / "cup.yaml").write_text("composition: porcelain\nfinish: high gloss\n")
+    (tmp_path / "sheet.yml").write_text("composition: copper\nfinish: satin\n")
+    some(tmp_path, "scan.csv", 1)
+    status, out, err = answered(f"recommend {tmp_path} --no-timing")
+    assert status == 0 and [Path(line.split()[0]).name for line in out.splitlines()[1:]] == ["cup.yaml", "sheet.yml"], (
+        err
+    )
 
 
 def test_answers_of_a_folder_are_exported_under_their_files_names(tmp_path):

@@ -270,7 +270,7 @@ def test_gloss_says_it_for_its_body():
 
 def test_roughness_says_it_for_three_surfaces():
     assert answer("roughness", "--angle", "75")["slopes"]["shows_from"]["bare metal"] == 0.035
-    assert "sigma/tau shows from a change of 3.5 % on a bare metal, 16 %" in run("roughness", "--angle", "75").stdout
+    assert "a change of sigma/tau shows from 3.5 % on a bare metal, 16 %" in run("roughness", "--angle", "75").stdout
 
 
 @pytest.mark.parametrize("angle, percent_a_degree", [(45, 1.7), (60, 2.7), (75, 6.4), (83, 18)])

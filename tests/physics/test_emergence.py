@@ -226,9 +226,9 @@ def test_prints_eq_3_and_the_criterion_side_by_side(capsys):
     status, out, err = full(["roughness", "--angle", "80", "--slope", "0.1"], capsys)
     rows = {line.split("  ")[0]: line.split()[-3:] for line in out.splitlines()}
     assert status == 0 and err == ""
-    assert rows["Eq. 3, Table 2: C = 9"] == ["0.857", "8.57", "80"]
+    assert rows["Eq. 3 with C = 9"] == ["0.857", "8.57", "80"]
     assert rows["He-Torrance criterion"] == ["0.781", "7.81", "80"]
-    assert "Eq. 3 is 9.7 % above the criterion in sigma" in out
+    assert "Eq. 3, gives a sigma 9.7 % larger than the full criterion" in out
 
 
 @pytest.mark.parametrize(
@@ -278,7 +278,7 @@ def test_doubts_have_codes(capsys):
 
 def test_no_emergence_gives_an_inequality(capsys):
     _, out, _ = full(["roughness", "--never"], capsys)
-    assert "no emergence up to 85 deg" in out and "sigma > 2.01 um along sigma/tau = 0.1" in out
+    assert "without a mirror image up to 85 deg" in out and "rougher than sigma 2.01 um at sigma/tau = 0.1" in out
 
 
 def test_batch_answers_each_line_and_keeps_the_worst_status():

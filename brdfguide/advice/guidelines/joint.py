@@ -66,7 +66,7 @@ def words(number: Estimate, unit: str = "") -> str:
         return f"{number.value:.3g}{unit} (above {number.low:.2g})"
     if number.low is None:
         return f"{number.value:.3g}{unit} (below {number.high:.2g})"
-    return f"{number.value:.3g}{unit} ({number.low:.2g} to {number.high:.2g})"
+    return f"{number.value:.3g}{unit} ({number.low:.3g} to {number.high:.3g})"
 
 
 def _deciders(law: LawEstimate) -> str:
@@ -75,7 +75,7 @@ def _deciders(law: LawEstimate) -> str:
     for name in ("sigma", "slope", "n") if "sigma" in law.numbers else ("alpha", "n"):
         if name in law.numbers and law.numbers[name].decided_by:
             told.setdefault(law.numbers[name].decided_by, []).append(name)
-    said = [f"{' and '.join(names)} above all by {key}" for key, names in told.items()]
+    said = [f"{' and '.join(names)} mostly by {key}" for key, names in told.items()]
     return f"; {', '.join(said)}" if said else ""
 
 

@@ -19,7 +19,7 @@ def as_shader_text(block: dict) -> str:
         off = off_words(each["off_percent"])
         lines.append(f"  as MaterialX's nodes evaluate it; with {each['with']}, as other programs have it, {off} off")
     others = [f"{each['candidate']} {off_words(each['off_percent'])}" for each in block["settings"][1:]]
-    lines += [f"  set otherwise: {', '.join(others)}"] if others else []
+    lines += [f"  its other settings: {', '.join(others)} off"] if others else []
     for each in block["cannot_follow"]:
         lines.append(f"  {'cannot follow' if each['code'] == 'discrepancy' else 'doubt'}: {each['text']}")
     return "\n".join(lines)

@@ -1,5 +1,6 @@
 """Surfaces side by side, in words."""
 
+from .folding import folded
 from .table import columns
 
 PLACES = {
@@ -8,6 +9,10 @@ PLACES = {
     "lamp_from_eye": "where the lamp stands",
 }
 
+KEY = (
+    "seen, S: rms difference in lightness L* of two spheres, here of those directions alone; share of S²: how much of "
+    "the whole comes from them"
+)
 FARTHER = {  # what is said of the one that comes after
     None: "",
     "alike to the eye": "alike to the eye",
@@ -43,6 +48,7 @@ def pair_text(document: dict) -> str:
             for each in parts
         ]
         lines += ["", columns((PLACES[name], "share of S²", "S", "B lighter by"), rows, right=(1, 2, 3))]
+    lines += ["", folded(KEY, "", "  ")]
     return "\n".join(lines)
 
 

@@ -3,7 +3,7 @@
 import sys
 
 from ...errors import BrdfguideError, InputError
-from ..documents.emergence import SCHEMA, document
+from ..documents.emergence import SCHEMA, SLOPE, document
 
 
 def text(result: dict, full: bool = False) -> str:
@@ -11,11 +11,12 @@ def text(result: dict, full: bool = False) -> str:
     lines = [*_answer(result), "", *_both(result), ""]
     if "difference" in result:
         percent, of = result["difference"]["eq3_over_criterion_percent"], result["difference"]["of"].removesuffix("_um")
-        lines.append(f"Eq. 3 is {abs(percent):.1f} % {'above' if percent > 0 else 'below'} the criterion in {of}")
+        more = f"{abs(percent):.1f} % {'larger' if percent > 0 else 'smaller'}"
+        lines.append(f"the guide's short formula, Eq. 3, gives a {of} {more} than the full criterion behind it")
     lines += _report_example(result)
     if "slopes" in result:
         shows = ", ".join(f"{100 * share:.2g} % on a {body}" for body, share in result["slopes"]["shows_from"].items())
-        lines.append(f"for the eye, sigma/tau shows from a change of {shows}")
+        lines.append(f"for the eye: a change of sigma/tau shows from {shows}")
         lines += _in_other_words(result) if full else []
     for tau, sigma in result.get("contour", ()):
         if (tau, sigma) == tuple(result["contour"][0]):
@@ -30,20 +31,25 @@ def _answer(result) -> list[str]:
     sigma, tau = criterion["sigma_um"], criterion["tau_um"]
     lines = []
     if never:
-        lines.append(
-            f"no mirror image seen: the surface lies above the contour, sigma > {sigma:.3g} um "
-            f"along sigma/tau = {criterion['slope']:.3g}"
-        )
+        lines.append(f"no mirror image seen: rougher than sigma {sigma:.3g} um at sigma/tau = {criterion['slope']:.3g}")
     elif sigma:
-        lines.append(f"sigma {sigma:.3g} um, tau {tau:.3g} um (He-Torrance criterion)")
+        lines.append(
+            f"sigma {sigma:.3g} um, tau {tau:.3g} um: rms height and distance of the surface's bumps, at sigma/tau = "
+            f"{criterion['slope']:.3g}{' [--slope]' if _is_usual(criterion) else ''}"
+        )
     if "doubt" in result:
         lines.append(_doubt(result["doubt"], criterion))
-    head = "no emergence up to" if never else "emergence at"
+    head = "without a mirror image up to" if never else "for a mirror image that appears at"
     return [
         *lines,
-        f"{head} {result['angle_deg']:.4g} deg, {result['wavelength_nm']:g} nm, {result['solid_angle_sr']:.4g} sr"
-        f" (pupil {result['pupil_mm']:g} mm at {result['distance_mm']:g} mm)",
+        f"{head} {result['angle_deg']:.4g} deg from the normal, {result['wavelength_nm']:g} nm, a pupil of "
+        f"{result['pupil_mm']:g} mm at {result['distance_mm']:g} mm ({result['solid_angle_sr']:.4g} sr)",
     ]
+
+
+def _is_usual(point) -> bool:
+    """Whether sigma/tau is what is taken where none is given."""
+    return round(point["slope"], 9) == SLOPE
 
 
 def _both(result) -> list[str]:
@@ -52,7 +58,7 @@ def _both(result) -> list[str]:
     sign = "> " if result["emergence"] == "never" else ""
     lines = [f"{'':24}  {'sigma [um]':>10}  {'tau [um]':>10}  {'angle [deg]':>11}"]
     for name, part in (
-        (f"Eq. 3, Table 2: C = {eq3['c']:.3g}" if eq3["sigma_um"] else "Eq. 3", eq3),
+        (f"Eq. 3 with C = {eq3['c']:.3g}" if eq3["sigma_um"] else "Eq. 3", eq3),
         ("He-Torrance criterion", criterion),
     ):
         cells = [sign + f"{part[key]:.3g}" if part["sigma_um"] else "-" for key in ("sigma_um", "tau_um")]
@@ -66,9 +72,10 @@ def _in_other_words(result) -> list[str]:
     slopes = result["slopes"]
     others = [f"{emerges(each['angle_deg'])} at {each['wavelength_nm']:g} nm" for each in result["other_wavelengths"]]
     return [
-        f"sigma/tau {slopes['sigma_over_tau']:.3g} is an rms slope of {slopes['rms_along_a_line']:.3g} along a line,"
-        f" a mean gradient of {slopes['mean_gradient']:.3g}, a Beckmann alpha of {slopes['beckmann_alpha']:.3g}",
-        f"the criterion's surface emerges {' and '.join(others)}",
+        f"sigma/tau {slopes['sigma_over_tau']:.3g} by its other names: rms slope along a line "
+        f"{slopes['rms_along_a_line']:.3g}, mean gradient {slopes['mean_gradient']:.3g}, Beckmann's alpha "
+        f"{slopes['beckmann_alpha']:.3g}",
+        f"in other light the same surface's mirror image appears {' and '.join(others)}",
     ]
 
 
@@ -77,14 +84,14 @@ def _doubt(doubt, criterion):
     name, value = doubt["of"].removesuffix("_um"), criterion[doubt["of"]]
     low, high = doubt["low"], doubt["high"]
     if low is None and high is None:
-        return f"read to {doubt['angle_error_deg']:g} deg, the angle leaves {name} open"
+        return f"the angle, read to {doubt['angle_error_deg']:g} deg, leaves {name} open"
     if low is None or high is None:
         said = f"lies above {low:.3g} um" if high is None else f"lies below {high:.3g} um"
     else:
         said = (
             f"lies in {low:.3g} to {high:.3g} um ({100 * (low / value - 1):+.0f} to {100 * (high / value - 1):+.0f} %)"
         )
-    return f"read to {doubt['angle_error_deg']:g} deg, {name} {said}, 19 times in 20"
+    return f"the angle read to {doubt['angle_error_deg']:g} deg, {name} {said}, 19 times in 20"
 
 
 def emerges(degrees):
@@ -97,11 +104,15 @@ def emerges(degrees):
 def _report_example(result):
     """The report's worked example, said beside the answers that it belongs to and that it does not."""
     point = result["criterion"]
-    if point["sigma_um"] is None or round(point["slope"], 9) != 0.1:
+    if point["sigma_um"] is None or not _is_usual(point):
         return []
     if f"{point['sigma_um']:.2f}, {point['tau_um']:.1f}" == "0.50, 5.0":
-        return ["the report's worked example (0.50, 5.0) lies on this contour, though it names 80 deg"]
-    return ["the report's worked example (0.50, 5.0) belongs to 75 deg, not to 80"] if result["angle_deg"] == 80 else []
+        return ["the guide's worked example (sigma 0.50, tau 5.0) belongs here, though it names 80 deg"]
+    return (
+        ["the guide's worked example (sigma 0.50, tau 5.0) belongs to 75 deg, not to 80"]
+        if result["angle_deg"] == 80
+        else []
+    )
 
 
 def notes(result: dict) -> list[str]:

@@ -11,15 +11,16 @@ TIED = "\N{NO-BREAK SPACE}"  # stands between a number and its % while lines are
 MOST_MARGIN = 30  # columns of an indentation that is kept on the lines that follow
 
 
-def screen_width() -> int | None:
-    """Columns of the terminal that standard output is; None in a pipe or a file."""
-    if not sys.stdout.isatty():
+def screen_width(stream=None) -> int | None:
+    """Columns of the terminal that a stream, or standard output, is; None in a pipe or a file."""
+    stream = stream or sys.stdout
+    if not stream.isatty():
         return None
     said = os.environ.get("COLUMNS", "")
     if said.isdigit() and int(said):
         return max(int(said), LEAST)
     try:
-        return max(os.get_terminal_size(sys.stdout.fileno()).columns or 80, LEAST)
+        return max(os.get_terminal_size(stream.fileno()).columns or 80, LEAST)
     except (OSError, ValueError):
         return 80
 

@@ -22,13 +22,13 @@ def _about(each: dict) -> str:
     at = "" if each["wavelength_nm"] is None else f" at {each['wavelength_nm']:.7g} nm"
     simple = each["simplified"]
     if simple is None:
-        cost = "no simplification"
+        cost = "nothing simpler comes near"
     elif simple["as"] == "constant":
         cost = (
-            f"simplified as constant {simple['value']:.3f}: {simple['worst_to_75_deg']:.1%} to 75 deg, "
-            f"{simple['worst_to_85_deg']:.1%} to 85; Eq. 2's n = {each['eq2']['n']:.3g} errs by 5% from "
-            f"{each['eq2']['within_5_percent_to_deg']:g} deg"
+            f"a constant {simple['value']:.3f} in place of F is at most {100 * simple['worst_to_75_deg']:.1f} % off "
+            f"to 75 deg, {100 * simple['worst_to_85_deg']:.1f} % to 85; the real index that F0 gives (Eq. 2), "
+            f"{each['eq2']['n']:.3g}, is 5 % off from {each['eq2']['within_5_percent_to_deg']:g} deg on"
         )
     else:
-        cost = f"simplified as n = 1.5: {simple['worst_to_85_deg']:+.0%} to 85 deg"
+        cost = f"the usual n = 1.5 in its place is {100 * simple['worst_to_85_deg']:+.0f} % off, at most, to 85 deg"
     return folded(f"{each['name']}{at}: {cost}; {each['source']}", "", "  ")

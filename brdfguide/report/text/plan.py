@@ -21,18 +21,14 @@ def _head(result: dict) -> str:
         left = 100 * last["expected_after"]
         lines = [f"{count} to pin {result['of'][0]}{there}: {left:.3g} % of today's standard error will be left"]
     else:
-        before = "" if first["expected_before"] is None else f", {_over(first['expected_before'])} today"
-        expected = _over(last["expected_after"])
-        lines = [f"{count}{there}: error over all directions expected {expected} of a fit to all of them{before}"]
+        before = "" if first["expected_before"] is None else f" (today {first['expected_before']:.3g} times)"
+        expected = f"{last['expected_after']:.3g} times as much as one fitted to all{before}"
+        lines = [f"{count}{there}: fitted to them, a model should err over all directions {expected}"]
     if result["seconds"] is not None:
         lines.append(f"takes {_time(result['seconds'])}")
     if len(result["blocks"]) > 1:
         lines.append("measure a block, then plan again with --after: what was seen changes what is worth measuring")
     return "\n".join(lines)
-
-
-def _over(ratio: float) -> str:
-    return f"{ratio:.3g} times that"
 
 
 def _time(seconds: float) -> str:

@@ -1,8 +1,13 @@
 """What a scene does not need, in words."""
 
-from .folding import wrapped_text
+from .folding import folded, wrapped_text
 from .ranking import notes_text
 from .table import columns
+
+UNITS = {
+    "JND": "just noticeable differences of luminance (JND)",
+    "ΔE_ITP": "just noticeable differences of colour (ΔE_ITP)",
+}
 
 
 def text(block: dict, notes: bool = True) -> str:
@@ -39,7 +44,11 @@ def _verdict(block: dict) -> str:
     )
     lines.append(
         f"  ({_where(error)})"
-        + ("" if block["quadrature"]["listed"] else f"; {_jnd(fresh['worst_visible'])} at worst on fresh directions")
+        + (
+            ""
+            if block["quadrature"]["listed"]
+            else f"; {_jnd(fresh['worst_visible'])} at worst on directions drawn anew"
+        )
     )
     lines.append(
         f"  beyond this scene, on a sphere under lamps all around, seen {block['seen']:.1f} L*: {block['seen_words']}"
@@ -70,8 +79,7 @@ def _parts_table(block: dict) -> str:
         "p95",
         "worst",
         "bound",
-        "codes",
-        "where",
+        "at",
         *(("saves ns",) if timed else ()),
         "",
     )
@@ -84,12 +92,15 @@ def _parts_table(block: dict) -> str:
             f"{error['p95']:.2f}",
             f"{error['worst_visible']:.2f}",
             _bound(each["bound"]),
-            f"{error['worst_codes']:.1f}",
-            _where(error),
+            _place(error),
         ]
         line += [_saving(each)] if timed else []
         lines.append([*line, "left out" if each["left_out"] else "kept"])
-    return columns(header, lines, right=(1, 2, 3, 4, 5, 7) if timed else (1, 2, 3, 4, 5))
+    key = (
+        f"mean, p95, worst: {UNITS[_short(block)]} over the picture, for 95 % of it, and at worst; bound: what a "
+        f"closed form says of the worst; at: theta_i, theta_r, phi [deg] of the worst"
+    )
+    return columns(header, lines, right=(1, 2, 3, 4, 6) if timed else (1, 2, 3, 4)) + "\n" + folded(key, "", "  ")
 
 
 def _saving(part: dict) -> str:
@@ -145,6 +156,13 @@ def _where(error: dict) -> str:
     if at["theta_i_deg"] >= 90:
         return f"theta_r {at['theta_r_deg']:.0f}, turned from the light"
     return f"theta_i {at['theta_i_deg']:.0f}, theta_r {at['theta_r_deg']:.0f}, phi {at['phi_deg']:.0f}"
+
+
+def _place(error: dict) -> str:
+    at = error["at"]
+    if at["theta_i_deg"] >= 90:
+        return f"-, {at['theta_r_deg']:.0f}, -"
+    return ", ".join(f"{at[name]:.0f}" for name in ("theta_i_deg", "theta_r_deg", "phi_deg"))
 
 
 def _operations(counted: dict) -> str:

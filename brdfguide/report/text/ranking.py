@@ -127,10 +127,11 @@ def data_text(document: dict) -> str:
 
 def heading(data: dict) -> str:
     low, high = data["theta_i_deg"]
+    incidence = f"{low:.3g}" if low == high else f"{low:.3g}..{high:.3g}"
     plane = "in the plane of incidence" if data["in_plane"] else "over the hemisphere"
     channels = f"{len(data['channels'])} channels" if len(data["channels"]) > 1 else f"{data['wavelength_nm'][0]:g} nm"
     missing = f", {data['missing']} of {data['values']} values missing" if data["missing"] else ""
-    return f"{data['file']}: {data['samples']} directions {plane}, {channels}, theta_i {low:g}..{high:g} deg{missing}"
+    return f"{data['file']}: {data['samples']} directions {plane}, {channels}, theta_i {incidence} deg{missing}"
 
 
 def noise_line(document: dict) -> str:
@@ -313,7 +314,7 @@ def data_notes(data: dict, full: bool = True) -> str:
 def notes_text(title: str, findings: list[dict]) -> str:
     lines = [
         wrapped_text(
-            f"{each['code']}: {each['text']}"
+            f"{each['code']}: {each['text'].removeprefix(each['code'].replace('-', ' ') + ': ')}"
             + (f": {each['consequence']}" if each.get("consequence") else "")
             + _option(each)
         )

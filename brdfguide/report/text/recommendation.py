@@ -129,7 +129,7 @@ def measured_text(document: dict) -> str:
 def _without(observations: list[dict]) -> str:
     """What leaving out an observation would change, where that is not the answer itself."""
     told = [(each["observation"], each["text"]) for each in observations if each["effect"] != "decides"]
-    return folded("left out one by one: " + _grouped(told), "", "  ") if told else ""
+    return folded("leaving out one observation: " + _grouped(told), "", "  ") if told else ""
 
 
 def _left_out(left_out: list[dict]) -> str:

@@ -1,5 +1,6 @@
 """Scatter of polished surfaces in words: the answer first, then the laws, then what was assumed."""
 
+from .folding import TIED
 from .table import columns
 from .values import off_words, percent_words
 
@@ -122,7 +123,7 @@ def laws_text(laws: list[dict]) -> str:
             row["law"],
             off_words(row["off_percent"]),
             off_words(row["worst_percent"]),
-            "  ".join(f"{name} {parameter_text(entry)}" for name, entry in row["parameters"].items()),
+            "  ".join(f"{name}{TIED}{parameter_text(entry)}" for name, entry in row["parameters"].items()),
             row["by"] + (f" ({', '.join(row['flags'])})" if row["flags"] else ""),
         )
         for row in laws

@@ -1,7 +1,7 @@
 """Results as text: plain aligned columns that a script can cut and a person can read."""
 
 from ...printable import width
-from .folding import broken, screen_width
+from .folding import TIED, broken, screen_width
 
 GAP = "  "
 NARROWEST = 12  # columns of a cell whose words are folded
@@ -42,7 +42,10 @@ def _narrowed(natural: list[int], right: tuple[int, ...], screen: int) -> list[i
 
 def _set(row: tuple[str, ...], widths: list[int], right: tuple[int, ...]) -> list[str]:
     """The lines of a row: each cell folded into its width."""
-    folded = [[cell] if width(cell) <= room else broken(cell, room) for cell, room in zip(row, widths, strict=True)]
+    folded = [
+        [cell.replace(TIED, " ")] if width(cell) <= room else broken(cell, room)
+        for cell, room in zip(row, widths, strict=True)
+    ]
     lines = []
     for number in range(max(map(len, folded))):
         line = []

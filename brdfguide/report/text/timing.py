@@ -6,7 +6,8 @@ from .table import columns
 def text(result: dict) -> str:
     """One line per law: least and median time per sample at each size, operations, error."""
     names = list(dict.fromkeys(row["model"] for row in result["rows"]))
-    sizes = list(dict.fromkeys(row["n"] for row in result["rows"]))
+    measured = list(dict.fromkeys(row["n"] for row in result["rows"]))
+    sizes = [n for n in measured if n > 1] or measured  # one direction a call is Python's cost and no law's
     by = {(row["model"], row["n"]): row for row in result["rows"]}
     with_error = "data" in result
     kinds = list(result["rows"][0]["operations"])
@@ -39,5 +40,8 @@ def text(result: dict) -> str:
         f"a fit\noperations per sample by kind, arrays only\n{m['processor']}, {m['cores']} cores, {m['system']}, "
         f"Python {m['python']}, NumPy {m['numpy']}"
     )
+    calls = [row["time_per_sample_ns"]["min"] / 1000 for row in result["rows"] if row["n"] == 1]
+    if calls and len(sizes) < len(measured):
+        note = f"one direction alone takes {max(calls):.0f} us a call at most, nearly all of it Python's\n{note}"
     front_note = f"\n* none is better in both error and time; {result['data']}" if with_error else ""
     return f"{table}\n\n{note}{front_note}"

@@ -2,6 +2,8 @@
 
 from ...printable import cell, comment
 
+LEAST = 1e-3  # percent; what is less is printed as none
+
 
 def csv(document: dict) -> str:
     lines = [",".join(map(cell, document["columns"]))]
@@ -22,7 +24,7 @@ def residuals_csv(document: dict) -> str:
 def off_words(percent: float) -> str:
     """How far off a model typically is; what is no longer a percentage as a factor."""
     if percent < 9.95:
-        return f"{percent:.2g} %"
+        return f"{percent if percent >= LEAST else 0:.2g} %"
     return f"{percent:.0f} %" if percent < 99.5 else f"a factor {min(1 + percent / 100, 1e9):.2g}"
 
 
