@@ -167,9 +167,9 @@ class Preview:
     @cached_property
     def png(self) -> bytes:
         """The picture with names, and with what differs between the surfaces, as a file."""
-        from ..report.figures import spheres, style
+        from ..report.figures import spheres
 
-        return style.figure_file(spheres.preview_sheet(self.surfaces, self.radiance, self.about, self.compared), "png")
+        return spheres.preview_sheet(self.surfaces, self.radiance, self.about, self.compared)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the picture whole or not at all: .png for displays, .exr with radiances in linear sRGB, side by side.

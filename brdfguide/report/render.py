@@ -17,6 +17,7 @@ from ..physics import colour
 from ..physics.geometry import Geometry
 from . import grained_view as grain
 from .grained_view import GrainedView, frames, grained_view, has_grain, place_in_turns, sample_turned
+from .toward_light import TURN, share_of_mirror_side, shines_back
 
 ZENITH = np.array([0.25, 0.42, 0.78])  # linear sRGB radiance, 1 = white at the horizon
 HORIZON = np.array([1.0, 0.92, 0.82])
@@ -151,6 +152,9 @@ def _reflected_sky(surface: ColouredSurface, theta_r: float, roll, turn: float =
     i = 2 * cos_d[:, None] * half - r
     good = (cos_d > 0) & (i[:, 2] > 1e-6)
     i, weight = i[good], (4 * cos_d * step)[good] * i[good, 2]
+    if shines_back(surface):  # the same about the light, each direction's share to whichever it is near
+        share = share_of_mirror_side(i, r)
+        i, weight = np.concatenate((i, i * TURN)), np.concatenate((share * weight, share * weight))
     geom = Geometry.from_vectors(i, r)
     f = surface.rgb(sample_turned(geom, turn) if turn else geom) * weight[:, None]
     # upward direction in the frame of the normal: across the line of sight, rolled by ψ from the plane of incidence

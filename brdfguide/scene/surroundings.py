@@ -52,8 +52,11 @@ class Surroundings:
 
     def rgb(self, directions) -> np.ndarray:
         """Radiance (..., 3) in linear sRGB, of directions (..., 3) in the world; its luminance is `radiance`."""
-        directions = np.asarray(directions, float)
-        return self.radiance(directions)[..., None] * _tint_of(self.kind, directions)
+        return self.irradiance / _brightest_side(self.kind) * self.relative_rgb(np.asarray(directions, float))
+
+    def relative_rgb(self, directions) -> np.ndarray:
+        """The same to a factor that is the same for all directions."""
+        return _FORMS[self.kind](directions, 0.0)[..., None] * _tint_of(self.kind, directions)
 
     def radiance(self, directions, blur=0.0) -> np.ndarray:
         """Radiance (...) [irradiance/sr] of white light, of unit directions (..., 3) in the world.

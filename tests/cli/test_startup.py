@@ -43,7 +43,7 @@ MAY_NOT_LOAD = {
     f"compare {SAMPLE} lambertian+ggx": ("scipy", "yaml", "matplotlib"),
     "export": ("scipy", "yaml", "matplotlib"),
     "export porcelain --to mitsuba -o OUT/porcelain.xml": ("scipy", "matplotlib"),
-    "preview porcelain --size 64 -o OUT/look.png": ("scipy",),
+    "preview porcelain --size 64 -o OUT/look.png": ("scipy", "matplotlib"),
     "explore lambertian+ggx -o OUT/e.html": ("scipy", "yaml", "matplotlib"),
     "figures OUT --only 1": ("scipy", "yaml"),
     "albedo --patch white": HEAVY,

@@ -42,7 +42,13 @@ def world_sum(each: ColouredSurface, normal, points=400_000):
 
 @pytest.mark.parametrize(
     "name, values",
-    [("lambertian", {}), ("lambertian+ggx", {"ggx.alpha": 0.15}), ("ward", {"ward.alpha": 0.3}), ("oren-nayar", {})],
+    [
+        ("lambertian", {}),
+        ("lambertian+ggx", {"ggx.alpha": 0.15}),
+        ("ward", {"ward.alpha": 0.3}),
+        ("oren-nayar", {}),
+        ("lambertian+retro", {"retro.rho": 0.5, "retro.alpha": 0.05}),
+    ],
 )
 def test_reflected_sky_agrees_with_a_plain_sum_over_all_directions(name, values):
     each = surface(name, **values)
@@ -50,6 +56,15 @@ def test_reflected_sky_agrees_with_a_plain_sum_over_all_directions(name, values)
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     expected = np.array([world_sum(each, normal) for normal in normals])
     np.testing.assert_allclose(render.around_of(each, normals), expected, rtol=0.015)
+
+
+def test_a_lobe_about_the_light_sends_back_its_share_of_an_even_light_at_every_angle(monkeypatch):
+    for name in ("ZENITH", "HORIZON", "GROUND"):
+        monkeypatch.setattr(render, name, np.ones(3))
+    each = surface("retro", **{"retro.rho": 0.5, "retro.alpha": 0.005})
+    angles = np.radians([1.0, 20.0, 45.0, 70.0])
+    normals = np.stack((np.sin(angles), 0 * angles, np.cos(angles)), axis=-1)
+    np.testing.assert_allclose(render.around_of(each, normals), 0.5, rtol=0.01)
 
 
 def test_a_mirror_shows_the_world_and_the_whole_sun():

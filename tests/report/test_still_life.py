@@ -12,6 +12,7 @@ from brdfguide.report.figures import spheres
 from brdfguide.report.still_life import chequer, light_map, lit_by, standing
 from brdfguide.report.still_life.composition import HALF_WIDTH, Stage
 
+from ..patience import takes_less_than
 from .test_render import run
 
 SIZE = 96
@@ -41,7 +42,10 @@ def plain_sum(surface, stage: Stage, layer, place: int) -> np.ndarray:
     return 4 * np.pi / 100_000 * np.sum(f * (i @ normal)[:, None] * light, axis=0)
 
 
-@pytest.mark.parametrize("words", ["lambertian", "lambertian+ggx alpha=0.15", "ward alpha=0.3", "ggx alpha=0.08 k=3"])
+@pytest.mark.parametrize(
+    "words",
+    ["lambertian", "lambertian+ggx alpha=0.15", "ward alpha=0.3", "ggx alpha=0.08 k=3", "retro alpha=0.1 rho=0.5"],
+)
 def test_what_a_pixel_reflects_agrees_with_a_plain_sum_over_all_directions(words):
     surface = named_surface(words)
     stage = lit_by.staged([surface], "studio", "side", "sphere", SIZE)
@@ -51,6 +55,10 @@ def test_what_a_pixel_reflects_agrees_with_a_plain_sum_over_all_directions(words
     for place in inside[np.linspace(0, len(inside) - 1, 7).astype(int)[1:-1]]:
         expected = plain_sum(surface, stage, layer, place)
         np.testing.assert_allclose(picture[layer.rows[place]], expected, rtol=0.05, atol=0.012)
+
+
+def test_a_picture_among_surroundings_takes_less_than_three_seconds_of_work():
+    assert takes_less_than(3, lambda: preview("porcelain", size=512).png)
 
 
 def test_a_mirror_shows_what_stands_in_the_mirror_direction():

@@ -99,12 +99,12 @@ function law(m) {
   return given;
 }
 function* drawn(m, part) {
-  m.gl ??= {lobe: program(S.sources.lobe.replace('LAW', () => m.glsl)), picture: program(S.sources.picture.replace('LAW', () => m.glsl)), lights: target(SPOKES, RINGS * THETAS, 2),
+  m.gl ??= {lobe: program(S.sources.lobe.replace('LAW', () => m.glsl)), picture: program(S.sources.picture.replace('LAW', () => m.glsl)), lights: target(SPOKES, RINGS * THETAS * (1 + m.back), 2),
     table: target(ROLLS, THETAS), radiance: target(SIZE, SIZE)};
-  const rings = whole(RINGS / part), spokes = whole(SPOKES / part), grid = common.grid, given = {...law(m), grid}, g = m.gl;
-  pass(g.lobe, g.lights, {...given, rings, spokes});
+  const rings = whole(RINGS / part), spokes = whole(SPOKES / part), back = whole(m.back), grid = common.grid, given = {...law(m), grid}, g = m.gl;
+  pass(g.lobe, g.lights, {...given, rings, spokes, back});
   for (let row = 0; row < THETAS; row += 8) {
-    pass(common.table, g.table, {grid, rings, spokes, lights: g.lights.textures[0], sides: g.lights.textures[1]}, [row, 8]);
+    pass(common.table, g.table, {grid, rings, spokes, back, lights: g.lights.textures[0], sides: g.lights.textures[1]}, [row, 8]);
     if (part === 1) yield;
   }
   pass(g.picture, g.radiance, {...given, size: SIZE, object: whole(state.object), sun: S.lights[state.light], around: g.table.textures[0]});
@@ -136,12 +136,14 @@ function software(full) {
     const f = [0, 1, 2].map(c => evaluator(m, c)), one = m.knobs.every(k => k.value.length < 2) && !m.numbers.length, table = [];
     for (let k = 0; k < thetas; k++) {
       const t0 = theta(k), r = [Math.sin(t0), 0, Math.cos(t0)], seen = [], low = Math.log(3e-4), step = (Math.log(40) - low) / rings;
-      for (let ring = 0; ring < rings; ring++) for (let s = 0; s < spokes; s++) {
+      for (let turned = 0; turned <= m.back; turned++) for (let ring = 0; ring < rings; ring++) for (let s = 0; s < spokes; s++) {
         const t = Math.exp(low + step * (ring + .5)), hz = 1 / Math.sqrt(1 + t * t), phi = 2 * Math.PI / spokes * (s + .5 + .618 * ring);
         const h = [t * hz * Math.cos(phi), t * hz * Math.sin(phi), hz], cd = h[0] * r[0] + hz * r[2];
         const i = h.map((x, n) => 2 * cd * x - r[n]);
         if (cd <= 0 || i[2] <= 1e-6) continue;
-        const w = 4 * cd * t * t * hz ** 3 * step * 2 * Math.PI / spokes * i[2], q = 4 * cd * cd * (h[0] ** 2 + h[1] ** 2);
+        let w = 4 * cd * t * t * hz ** 3 * step * 2 * Math.PI / spokes * i[2], q = 4 * cd * cd * (h[0] ** 2 + h[1] ** 2);
+        if (m.back) { const other = (r[0] - i[0]) ** 2 + i[1] ** 2; w *= other * other / Math.max(q * q + other * other, 1e-30);
+          if (turned) { i[0] = -i[0]; i[1] = -i[1]; q = other; } }
         const g = one ? Array(3).fill(f[0](i[2], r[2], q, i[0] * r[0])) : f.map(e => e(i[2], r[2], q, i[0] * r[0]));
         seen.push([g.map(x => x * w), r[0] * i[2] - r[2] * i[0], i[1]]);
       }

@@ -1,7 +1,8 @@
 """The preview's quadrature once more, as passes of WebGL2: constants from `render`, laws from `exporters.live`.
 
-Three passes: `lobe` (f·weight of every half vector at every angle of view), `table` (sky and ground reflected, over
-angle and roll), `picture` (radiance of every pixel). What is on the screen is made of pictures by `show`.
+Three passes: `lobe` (f·weight of every half vector at every angle of view, and about the light where a law shines
+back), `table` (sky and ground reflected, over angle and roll), `picture` (radiance of every pixel). What is on the
+screen is made of pictures by `show`.
 """
 
 import re
@@ -36,12 +37,13 @@ float theta_of(int k) {{ return texelFetch(grid, ivec2(k, 1), 0).r; }}
 float roll_of(int k) {{ return texelFetch(grid, ivec2(k, 0), 0).r; }}
 """
 LOBE = """
-uniform int rings, spokes;
+uniform int rings, spokes, back;
 layout(location = 0) out vec4 light;
 layout(location = 1) out vec4 side;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  int k = at.y / rings, ring = at.y - k * rings;
+  int k = at.y / rings, ring = at.y - k * rings, turned = k / THETAS;
+  k -= turned * THETAS;
   vec3 view = texelFetch(grid, ivec2(k, 1), 0).rgb;
   float low = log(3.0e-4), high = log(40.0), step_ = (high - low) / float(rings);
   float t = exp(low + step_ * (float(ring) + 0.5)), hz = inversesqrt(1.0 + t * t);
@@ -52,12 +54,18 @@ void main() {
   light = side = vec4(0.0);
   if (cd <= 0.0 || i.z <= 1.0e-6) return;
   float weight = 4.0 * cd * t * t * hz * hz * hz * step_ * 2.0 * PI_ / float(spokes) * i.z;
-  vec3 f = finite(i.z, r.z, 4.0 * cd * cd * dot(h.xy, h.xy), dot(i.xy, r.xy));
+  float q = 4.0 * cd * cd * dot(h.xy, h.xy);
+  if (back == 1) {
+    float other = dot(r.xy - i.xy, r.xy - i.xy), share = other * other / max(q * q + other * other, 1.0e-30);
+    weight *= share;
+    if (turned == 1) { i.xy = -i.xy; q = other; }
+  }
+  vec3 f = finite(i.z, r.z, q, dot(i.xy, r.xy));
   light = vec4(f * weight, r.x * i.z - r.z * i.x);
   side = vec4(i.y, 0.0, 0.0, 0.0);
 }"""
 TABLE = """
-uniform int rings, spokes;
+uniform int rings, spokes, back;
 uniform sampler2D lights, sides;
 out vec4 sum;
 void main() {
@@ -65,11 +73,12 @@ void main() {
   vec3 roll = texelFetch(grid, ivec2(at.x, 0), 0).rgb;
   float s = roll.g, c = roll.b;
   vec3 total = vec3(0.0);
-  for (int ring = 0; ring < rings; ring++) {
+  for (int ring = 0; ring < rings * (1 + back); ring++) {
+    int row = at.y * rings + (ring < rings ? ring : ring + rings * (THETAS - 1));
     vec3 part = vec3(0.0);
     for (int spoke = 0; spoke < spokes; spoke++) {
-      vec4 light = texelFetch(lights, ivec2(spoke, at.y * rings + ring), 0);
-      part += light.rgb * sky(s * light.a + c * texelFetch(sides, ivec2(spoke, at.y * rings + ring), 0).r);
+      vec4 light = texelFetch(lights, ivec2(spoke, row), 0);
+      part += light.rgb * sky(s * light.a + c * texelFetch(sides, ivec2(spoke, row), 0).r);
     }
     total += part;
   }

@@ -16,6 +16,7 @@ from ...printable import label
 from .. import render
 from ..figures.lines import nominal_channel
 from ..figures.panels import panels
+from ..toward_light import shines_back
 from .shaders import sources, squeezed
 
 ANGLES = np.degrees(np.arccos(np.geomspace(0.65, 0.02, 26)))  # of the contours [deg], even in ln cos
@@ -47,6 +48,7 @@ def explorer_state(shown: Sequence[Turned], measurement: Measurement | None = No
                 "law": surface.model.name,
                 "knobs": _knobs(surface, law, each),
                 "numbers": law.numbers,
+                "back": int(shines_back(surface)),
                 "glsl": squeezed(law.glsl),
             }
             for each, surface, law in zip(shown, surfaces, laws, strict=True)

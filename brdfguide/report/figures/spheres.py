@@ -2,9 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from io import BytesIO
+from pathlib import Path
 from textwrap import wrap
 
 import numpy as np
+from PIL import Image, ImageDraw, ImageFont
 
 from ...errors import NoAnswer
 from ...exporters import coloured
@@ -13,15 +18,16 @@ from ...models.surface import Surface
 from ...physics.colour import luminance
 from ...physics.display import Display
 from ...physics.geometry import WAVELENGTH_UM
-from ...printable import label
+from ...printable import short
 from .. import render
-from . import style
+from . import palette
 
 SMALL = 256  # pixels of a preview on a page
 FULL = 20.0  # just noticeable differences that have full colour, as in the explorer
 MARGIN = 12  # pixels
 LINE = 15  # height of a line [pixels]
 LETTER = 6.6  # mean width of a letter [pixels]
+LETTER_HEIGHT = 11  # of the font, 4 points at the 200 dots an inch of figures
 MOST_COLUMNS = 6  # of a contact sheet
 LESS = np.array([0.0, 0.447, 0.698])  # the palette's blue
 MORE = np.array([0.835, 0.369, 0.0])  # the palette's vermilion
@@ -39,8 +45,10 @@ class Cell:
     picture: np.ndarray
 
 
-def picture_sheet(captions: list[tuple[str, str]], radiances: list[np.ndarray], note: str = "", compared: bool = True):
-    """A figure with one preview per (name, parameters), and how each but the first differs from the first.
+def picture_sheet(
+    captions: list[tuple[str, str]], radiances: list[np.ndarray], note: str = "", compared: bool = True
+) -> bytes:
+    """A PNG with one preview per (name, parameters), and how each but the first differs from the first.
 
     All are exposed alike. Differences are of luminance in just noticeable steps: vermilion where brighter than the
     first, blue where darker, white where the same; beside a pair, below three and more. Where they are not `compared`,
@@ -73,8 +81,8 @@ def _differences(captions, radiances) -> list[Cell]:
     return made
 
 
-def _sheet(cells: list[Cell], columns: int, note: str):
-    """A figure of exact pixels."""
+def _sheet(cells: list[Cell], columns: int, note: str) -> bytes:
+    """A picture of exact pixels, as PNG. Pillow writes its words: matplotlib takes as long to load as all else."""
     size = cells[0].picture.shape[0]
     letters = int(size / LETTER)
     rows = 1 + max(each.row for each in cells)
@@ -82,21 +90,31 @@ def _sheet(cells: list[Cell], columns: int, note: str):
     foot = wrap(note, int(letters * columns)) if note else []
     width = columns * size + (columns + 1) * MARGIN
     height = rows * (size + head) + LINE * len(foot) + MARGIN
-    with style.look():
-        fig = style.figure(width / style.DOTS_PER_INCH * 25.4, height / style.DOTS_PER_INCH * 25.4)
-        fig.set_layout_engine(None)
+    made = Image.new("RGB", (width, height), palette.PAPER)
+    draw = ImageDraw.Draw(made)
 
-        def text(x, y, words, **more):
-            shown = "\n".join(label(line, style.MOST_OF_A_LINE) for line in words.split("\n"))
-            return fig.text(x / width, 1 - y / height, shown, fontsize=4, va="top", linespacing=1.3, **more)
+    def text(x, y, lines, font="DejaVuSans.ttf"):
+        for place, line in enumerate(lines):
+            draw.text((x, y + LINE * place), short(line, letters * columns), palette.INK, _font(font), anchor="la")
 
-        for each in cells:
-            x, y = MARGIN + each.column * (size + MARGIN), each.row * (size + head)
-            fig.figimage(each.picture, x, height - y - head - size, origin="upper")
-            text(x, y + MARGIN - 6, each.name, weight="bold")
-            text(x, y + MARGIN - 6 + LINE, "\n".join(wrap(each.small, letters)))
-        text(MARGIN, height - MARGIN - LINE * len(foot) + 6, "\n".join(foot))
-    return fig
+    for each in cells:
+        x, y = MARGIN + each.column * (size + MARGIN), each.row * (size + head)
+        pixels = (255 * np.clip(each.picture, 0, 1) + 0.5).astype(np.uint8)
+        made.paste(Image.fromarray(pixels), (x, y + head))
+        text(x, y + MARGIN - 6, [short(each.name, letters)], "DejaVuSans-Bold.ttf")
+        text(x, y + MARGIN - 6 + LINE, wrap(each.small, letters))
+    text(MARGIN, height - MARGIN - LINE * len(foot) + 6, foot)
+    out = BytesIO()
+    made.save(out, "PNG", optimize=False)
+    return out.getvalue()
+
+
+@cache
+def _font(name: str):
+    """One of the fonts that matplotlib brings, which is not imported for it."""
+    found = find_spec("matplotlib")
+    assert found is not None and found.origin is not None
+    return ImageFont.truetype(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / name, LETTER_HEIGHT)
 
 
 def noticeable_steps(first, other) -> np.ndarray:
@@ -137,7 +155,7 @@ def picture_of_looks(surfaces: list[Surface]) -> tuple[bytes, str]:
     made = [_shown(each) for each in surfaces]
     picture = picture_sheet([(each.name, "") for each in made], [render.render(each, SMALL) for each in made])
     how = f"The same light on each, a small sun and a sky with a horizon; {made[0].colour.how}."
-    return style.figure_file(picture, "png"), how
+    return picture, how
 
 
 def _shown(surface: Surface) -> ColouredSurface:

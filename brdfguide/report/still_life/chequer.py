@@ -57,22 +57,30 @@ def floor_under(things: Sequence[Thing], around: Lighting) -> Chequer:
     x, z = np.meshgrid(edge, edge)
     points = np.stack((x, np.full(x.shape, 1e-3), z), axis=-1).reshape(-1, 3)
     shade = np.ones(len(points))
+    balls = [_Ball(points, thing) for thing in things]
     for each, part in zip(directions[share > LEAST_SHARE], share[share > LEAST_SHARE], strict=True):
-        ray = np.broadcast_to(each, points.shape)
         hidden = np.zeros(len(points), bool)
-        for thing in things:
-            near = _may_be_hidden(points, each, thing) & ~hidden
-            hidden[near] = thing.blocks(points[near], ray[near])
+        for ball in balls:
+            near = ball.may_hide(each)
+            near = near[~hidden[near]]
+            hidden[near] = ball.thing.blocks(points[near], np.broadcast_to(each, (len(near), 3)))
         shade -= part * hidden
     fade = np.clip((EXTENT - np.maximum(np.abs(x), np.abs(z))) / 1.0, 0, 1)  # no edge where the map ends
     return Chequer(white, _softened(1 - fade * (1 - np.maximum(shade, 0).reshape(x.shape))))
 
 
-def _may_be_hidden(points, toward, thing: Thing) -> np.ndarray:
-    """Whether a ray passes the ball about an object."""
-    to = thing.middle - points
-    along = to @ toward
-    return (np.sum(to * to, axis=1) - along**2 < (1.75 * thing.size) ** 2) & (along > -1.75 * thing.size)
+class _Ball:
+    """The ball about an object, as points (n, 3) of the floor see it."""
+
+    def __init__(self, points, thing: Thing):
+        self.thing = thing
+        self.toward = thing.middle - points
+        self.beyond = np.sum(self.toward**2, axis=1) - (1.75 * thing.size) ** 2
+
+    def may_hide(self, direction) -> np.ndarray:
+        """Which points' rays pass it."""
+        along = self.toward @ direction
+        return np.flatnonzero((self.beyond < along**2) & (along > -1.75 * self.thing.size))
 
 
 def _softened(shade) -> np.ndarray:

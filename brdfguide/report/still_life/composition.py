@@ -12,6 +12,7 @@ import numpy as np
 from ...exporters.exporter import ColouredSurface
 from ...physics.geometry import Geometry
 from ..grained_view import grain_axis, has_grain
+from ..toward_light import TURN
 from . import lobe_cells as lobes
 from .chequer import Chequer, floor_under
 from .light_map import Lighting, map_directions
@@ -22,8 +23,9 @@ AIM = np.array([0.0, 0.72, 0.0])
 MIDDLE = np.array([0.0, 0.85, 0.0])  # from where the map of the surroundings is made
 HALF_WIDTH = 1.8  # of the picture at the aim
 LOCAL_ROWS = 384  # of what an object sees about itself
-ALIKE = 0.01  # squared difference of normals over which they count 1/e
-BLOCK = 16_000  # pixels at once
+APART = 1.6  # times a part's step: a corner whose normal differs by more is not asked
+LEAST_WEIGHT = 0.5  # of the corners that are asked, on the finest grid
+BLOCK = 20_000  # pairs of pixel and cell at once: what caches hold
 SPREAD = 2.0  # times the variance of a cell: Gaussians half as wide as they are apart sum to an even light
 
 
@@ -122,38 +124,44 @@ class Stage:
         return share * self.toward(layer.points, to, pixel)
 
     def _stepwise(self, surface, layer: Layer, cells: lobes.LobeCells) -> np.ndarray:
-        """A part of a lobe at every so many pixels, and between them by nearness of the normals."""
+        """A part of a lobe at every so many pixels and between them; closer together where the normal turns fast."""
         step = int(cells.step / (2 * HALF_WIDTH / self.size / layer.thing.size))
-        if step <= 1:
-            return self._summed(surface, layer, cells)
-        row, column = np.divmod(layer.rows, self.size)
-        picked = np.flatnonzero((row % step == 0) & (column % step == 0))
-        few = _taken(layer, picked)
-        light = self._summed(surface, few, cells)
-        side = self.size // step + 2
-        place = np.full((side, side), -1)
-        place[row[picked] // step, column[picked] // step] = np.arange(len(picked))
-        total, weight = np.zeros((len(row), 3)), np.zeros(len(row))
-        for down in (0, 1):
-            for right in (0, 1):
-                at = place[row // step + down, column // step + right]
-                s, t = row % step / step, column % step / step
-                share = (s if down else 1 - s) * (t if right else 1 - t)
-                there = (at >= 0) & (share > 0)
-                apart = np.sum((few.normal[at[there]] - layer.normal[there]) ** 2, axis=1)
-                share = share[there] * np.exp(-apart / ALIKE)
-                total[there] += share[:, None] * light[at[there]]
-                weight[there] += share
-        alone = weight < 0.05
-        total[~alone] /= weight[~alone, None]
-        total[alone] = self._summed(surface, _taken(layer, np.flatnonzero(alone)), cells)
-        return total
+        found = np.zeros((len(layer.rows), 3))
+        left = np.arange(len(layer.rows))
+        where = np.full(self.size**2, -1)
+        where[layer.rows] = left
+        while step > 1 and left.size:
+            at, share, apart, light = self._corners(surface, layer, cells, left, step, where)
+            share = np.where((at >= 0) & (apart < ((1 if step > 2 else 2) * APART * cells.step) ** 2), share, 0)
+            weight = share.sum(axis=0)
+            good = weight > (1 - 1e-9 if step > 2 else LEAST_WEIGHT)
+            found[left[good]] = np.einsum("kp,kpx->px", share, light)[good] / weight[good, None]
+            left, step = left[~good], max(step // 2, 2) if step > 2 else 1
+        found[left] = self._summed(surface, _taken(layer, left), cells)
+        return found
+
+    def _corners(self, surface, layer: Layer, cells: lobes.LobeCells, pixels, step: int, where):
+        """Of the square of a grid that pixels lie in: corners among the layer's pixels or -1, their shares, squared
+        difference of their normals, and light (4, pixels, 3) there.
+        """
+        row, column = np.divmod(layer.rows[pixels], self.size)
+        down, right = np.array([[0], [0], [1], [1]]), np.array([[0], [1], [0], [1]])
+        y, x = (row // step + down) * step, (column // step + right) * step
+        at = np.where((y < self.size) & (x < self.size), where[np.minimum(y * self.size + x, self.size**2 - 1)], -1)
+        s, t = row % step / step, column % step / step
+        share = np.where(down, s, 1 - s) * np.where(right, t, 1 - t)
+        used, place = np.unique(at, return_inverse=True)
+        kept = used >= 0
+        summed = np.zeros((len(used), 3))
+        summed[kept] = self._summed(surface, _taken(layer, used[kept]), cells)
+        off = layer.normal[at] - layer.normal[pixels]
+        return at, share, np.einsum("kpx,kpx->kp", off, off), summed[place.reshape(at.shape)]
 
     def _summed(self, surface, layer: Layer, cells: lobes.LobeCells) -> np.ndarray:
         """Light (pixels, 3) of cells of the lobe."""
         out = np.zeros((len(layer.rows), 3))
         axis = grain_axis(surface) if cells.turns > 1 else 0.0
-        step = max(1, BLOCK * 32 // len(cells.solid))
+        step = max(1, BLOCK // len(cells.solid))
         for start in range(0, len(out), step):
             block = _taken(layer, slice(start, start + step))
             out[start : start + step] = self._block(block, cells, axis)
@@ -166,12 +174,15 @@ class Stage:
         x = (view - cos[:, None] * normal) / sin[:, None]
         y = np.cross(normal, x)
         own = cells.vectors.astype(np.float32)
-        to = own[:, :1] * x[:, None] + own[:, 1:2] * y[:, None] + own[:, 2:] * normal[:, None]
-        variance = np.broadcast_to((SPREAD / (4 * np.pi) * cells.solid).astype(np.float32), to.shape[:2])
+        variance = np.broadcast_to((SPREAD / (4 * np.pi) * cells.solid).astype(np.float32), (len(view), len(own)))
         if cells.halved:
-            cos_d = np.maximum(sin[:, None] * own[:, 0] + cos[:, None] * own[:, 2], 0)
-            to = 2 * cos_d[..., None] * to - view[:, None]
+            seen_from = np.stack((sin, np.zeros_like(sin), cos), axis=-1)
+            cos_d = np.maximum(seen_from @ own.T, 0)
+            own = 2 * cos_d[..., None] * own - seen_from[:, None]
+            if cells.turned:
+                own *= TURN.astype(np.float32)
             variance = 4 * cos_d * variance
+        to = own @ np.stack((x, y, normal), axis=1)
         light = self._local.seen(self._from_middle(layer, to), variance)
         return np.einsum("pcx,pcx->px", light, _weights(cells, np.arccos(cos), layer, x, axis))
 
@@ -179,11 +190,11 @@ class Stage:
         """Directions from the object's middle to where rays from its surface meet the floor; the others as they are."""
         if self.floor is None:
             return to
-        fall = np.maximum(-to[..., 1], 1e-4)
-        far = (layer.points[:, 1].astype(np.float32)[:, None] / fall)[..., None]
-        seen = layer.points.astype(np.float32)[:, None] + far * to - MIDDLE.astype(np.float32)
-        seen /= np.linalg.norm(seen, axis=-1, keepdims=True)
-        return np.where(to[..., 1:2] < -1e-3, seen, to)
+        pixel, cell = np.nonzero(to[..., 1] < -1e-3)
+        points, down = layer.points.astype(np.float32)[pixel], to[pixel, cell]
+        seen = points - (points[:, 1] / down[:, 1])[:, None] * down - MIDDLE.astype(np.float32)
+        to[pixel, cell] = seen / np.sqrt(np.einsum("px,px->p", seen, seen))[:, None]
+        return to
 
 
 def _weights(cells: lobes.LobeCells, theta, layer: Layer, x, axis: float) -> np.ndarray:

@@ -35,7 +35,7 @@ def staged(surfaces: Sequence[ColouredSurface], around: str, light: str, objects
     found = Surroundings(around, turn_deg=-TURN_DEG[light])
     x, y, z = np.moveaxis(map_directions().astype(np.float32), -1, 0)
     world = np.stack((z, x, y), axis=-1) @ found.of_object.T.astype(np.float32)
-    return Stage(things, _scaled(found.rgb(world), around), size)
+    return Stage(things, _scaled(found.relative_rgb(world), around), size)
 
 
 def _of_picture(path: str) -> Lighting:

@@ -6,13 +6,14 @@ from it they are of the incident direction. Both quadratures cover a belt of til
     dω_i = 4 cos d dω_h,  dω_h = t dt dφ/(1 + t²)^{3/2},  t = tan of the half vector's tilt
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...exporters.exporter import ColouredSurface
 from ...physics.geometry import Geometry
 from ..grained_view import sample_turned
+from ..toward_light import TURN, share_of_mirror_side, shines_back
 
 LEAST, INNER, NARROW, FAR = 3e-4, 8e-3, 0.05, 0.35  # tilts [tan] where rings of cells of half vectors begin and end
 BELT = (0.2, 0.35)  # tilts [tan] where directions take over
@@ -27,7 +28,7 @@ THETAS, GRAINED_THETAS = 36, 20
 GRAZING = np.radians(89.6)
 PEAK, PEAK_SHARE = 0.025, 0.1  # a lobe with less than this share at smaller tilts is smooth
 FINEST_SHARE = 0.3  # of a lobe that is as sharp as the pixels
-WIDE_STEP, MIDDLE_STEP = 0.022, 0.015  # turn of the normal [rad] from one place to the next where a part is summed
+FAR_STEP, WIDE_STEP, MIDDLE_STEP = 0.06, 0.03, 0.015  # turn of the normal [rad] from one place of a sum to the next
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +39,7 @@ class LobeCells:
 
     vectors: np.ndarray
     halved: bool  # half vectors, or directions of incidence
+    turned: bool  # half vectors of the light turned about the normal by half a turn: about the light, not its mirror
     solid: np.ndarray
     theta: np.ndarray  # (thetas,)
     weights: np.ndarray  # (turns, thetas, cells, 3)
@@ -48,20 +50,28 @@ class LobeCells:
         return self.weights.shape[0]
 
     def part(self, kept, step: float) -> "LobeCells":
-        return LobeCells(self.vectors[kept], self.halved, self.solid[kept], self.theta, self.weights[:, :, kept], step)
+        return replace(
+            self, vectors=self.vectors[kept], solid=self.solid[kept], weights=self.weights[:, :, kept], step=step
+        )
 
 
 def lobe_parts(surface: ColouredSurface, grained: bool) -> list[LobeCells]:
-    """A lobe's core, its flanks, and what is far from the mirror direction; the smoother a part, the fewer places it
-    needs. LobeCells that send nothing are left out.
+    """A lobe's core, its flanks, the same about the light where it shines back, and what is far from both; the smoother
+    a part, the fewer places it needs. LobeCells that send nothing are left out.
     """
-    half, far = _cells(surface, grained)
-    size = np.abs(half.weights)
-    tilt = np.hypot(half.vectors[:, 0], half.vectors[:, 1])
-    total = (size.sum(axis=2) + np.abs(far.weights).sum(axis=2)).max()
-    facing = size[:, 0].mean(axis=(0, 2)).astype(float)
+    *about, far = _cells(surface, grained)
+    total = sum(np.abs(each.weights).sum(axis=2) for each in (*about, far)).max()
     if not total > 0:
         return []
+    found = [part for each in about for part in _core_and_flanks(each, total)]
+    kept = np.abs(far.weights).max(axis=(0, 1, 3)) > 1e-4 * total
+    return [each for each in (*found, far.part(kept, FAR_STEP)) if each.solid.size]
+
+
+def _core_and_flanks(half: LobeCells, total: float) -> list[LobeCells]:
+    size = np.abs(half.weights)
+    tilt = np.hypot(half.vectors[:, 0], half.vectors[:, 1])
+    facing = size[:, 0].mean(axis=(0, 2)).astype(float)
 
     def within(most):
         return facing[tilt < most].sum() / max(facing.sum(), 1e-300)
@@ -70,18 +80,18 @@ def lobe_parts(surface: ColouredSurface, grained: bool) -> list[LobeCells]:
     if within(INNER) > FINEST_SHARE:
         core = 0.0
     seen, narrow = size.max(axis=(0, 1, 3)) > 1e-4 * total, tilt < NARROW
-    kept = np.abs(far.weights).max(axis=(0, 1, 3)) > 1e-4 * total
-    found = [half.part(narrow & seen, core), half.part(~narrow & seen, WIDE_STEP), far.part(kept, WIDE_STEP)]
-    return [each for each in found if each.solid.size]
+    return [half.part(narrow & seen, core), half.part(~narrow & seen, WIDE_STEP)]
 
 
-def _cells(surface: ColouredSurface, grained: bool) -> tuple[LobeCells, LobeCells]:
+def _cells(surface: ColouredSurface, grained: bool) -> list[LobeCells]:
     theta = 0.5 * np.pi * (1 - (1 - np.linspace(0, 1, GRAINED_THETAS if grained else THETAS)) ** 1.5)
     theta[-1] = GRAZING
-    return _of_half_vectors(surface, theta, grained), _of_directions(surface, theta, grained)
+    back = shines_back(surface)
+    about = [_of_half_vectors(surface, theta, grained, back, turned) for turned in ([False, True] if back else [False])]
+    return [*about, _of_directions(surface, theta, grained, back)]
 
 
-def _of_half_vectors(surface: ColouredSurface, theta, grained: bool) -> LobeCells:
+def _of_half_vectors(surface: ColouredSurface, theta, grained: bool, back: bool, turned: bool) -> LobeCells:
     core = np.geomspace(LEAST, INNER, CORE_FINE + 1)
     near = np.geomspace(INNER, NARROW, NARROW_RINGS * FINE + 1)[1:]
     wide = np.geomspace(NARROW, FAR, WIDE_RINGS * FINE + 1)[1:]
@@ -98,7 +108,9 @@ def _of_half_vectors(surface: ColouredSurface, theta, grained: bool) -> LobeCell
     def directions(view):
         cos_d = half @ view
         i = 2 * cos_d[..., None] * half - view
-        return i, np.where(cos_d > 0, 4 * cos_d * (1 - _belt(t))[:, None] * solid, 0)
+        i = i * TURN if turned else i
+        one, other = _near(i, view, back)
+        return i, np.where(cos_d > 0, 4 * cos_d * (other if turned else one) * solid, 0)
 
     weights = _weights(surface, theta, grained, directions, cell, first[-1])
     count = first[-1]
@@ -107,10 +119,10 @@ def _of_half_vectors(surface: ColouredSurface, theta, grained: bool) -> LobeCell
     tilt[0] = 0.0  # the first cell lies about the normal
     place = np.arange(count) - np.repeat(first[:-1], spokes)
     vectors = _polar(np.arctan(tilt), 2 * np.pi * (place + 0.5) / np.repeat(spokes, spokes))
-    return LobeCells(vectors, True, every, theta, weights)
+    return LobeCells(vectors, True, turned, every, theta, weights)
 
 
-def _of_directions(surface: ColouredSurface, theta, grained: bool) -> LobeCells:
+def _of_directions(surface: ColouredSurface, theta, grained: bool, back: bool) -> LobeCells:
     def grid(bands, sectors):
         at = 0.5 * np.pi * (np.arange(bands) + 0.5) / bands
         vectors = _polar(at[:, None], 2 * np.pi * (np.arange(sectors) + 0.5) / sectors)
@@ -122,17 +134,27 @@ def _of_directions(surface: ColouredSurface, theta, grained: bool) -> LobeCells:
     cell = cell + np.arange(FINE_SECTORS) * SECTORS // FINE_SECTORS
 
     def directions(view):
-        half = fine + view
-        tilt = np.hypot(half[..., 0], half[..., 1]) / half[..., 2]
-        return fine, solid * _belt(tilt)
+        return fine, solid * (1 - sum(_near(fine, view, back)))
 
     vectors, large = grid(BANDS, SECTORS)
     weights = _weights(surface, theta, grained, directions, cell, BANDS * SECTORS)
-    return LobeCells(vectors.reshape(-1, 3), False, large.ravel(), theta, weights)
+    return LobeCells(vectors.reshape(-1, 3), False, False, large.ravel(), theta, weights)
 
 
-def _belt(tilt):
+def _near(i, view, back: bool):
+    """Shares of directions (..., 3) that are counted about the mirror direction, and about the light."""
+    one = 1 - _belt(i, view)
+    if not back:
+        return one, 0.0
+    other = 1 - _belt(i * TURN, view)
+    either = one + other - one * other
+    share = share_of_mirror_side(i, view, one, other)
+    return either * share, either * (1 - share)
+
+
+def _belt(i, view):
     """0 near the mirror direction, 1 far from it: the share of the quadrature over directions."""
+    tilt = np.hypot(i[..., 0] + view[0], i[..., 1]) / np.maximum(i[..., 2] + view[2], 1e-9)
     x = np.clip((tilt - BELT[0]) / (BELT[1] - BELT[0]), 0, 1)
     return x * x * (3 - 2 * x)
 
