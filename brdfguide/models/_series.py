@@ -19,6 +19,7 @@ NODES = np.arange(-8.4, 8.41, 0.6)
 PSI = tuple((j - 1) / factorial(j) for j in range(2, 16))
 STIRLING = (1 / 12, -1 / 360, 1 / 1260, -1 / 1680)
 LONGEST = 4096
+STEP = 16  # orders by which a cell's window grows
 LN_FACTORIAL_M = np.concatenate([[0.0], np.cumsum(np.log(np.arange(1.0, LONGEST)))]) + np.log(
     np.maximum(np.arange(LONGEST), 1)
 )
@@ -39,6 +40,32 @@ def by_terms(g, y, derivatives: bool = True):
     return result
 
 
+def by_products(g, y):
+    """ln S of every g (cells, n) with every y (cells, k) of its cell, (cells, n, k), to 3e-13 or 2e-15 of it.
+
+    For monotone g <= 4 and y < 4 · 2^16 within a cell of `_series_cells`, where the peak is narrow and does not move
+    far: its terms are products of g^m and e^(-y/m), the sums a product of matrices, with a seventh of the exponentials.
+    What a cell is does not depend on the others.
+    """
+    corner_g, corner_y = np.broadcast_arrays(g[:, (0, -1), None], y[:, None, (0, -1)])
+    _, top, width = peak_of_summand(corner_g, corner_y)
+    first, last = _window(top, width)
+    first, steps = first.min(axis=(1, 2)), -(-(last.max(axis=(1, 2)) - first.min(axis=(1, 2))) // STEP)
+    out = np.empty((*g.shape, y.shape[1]))
+    for each in np.unique(steps):
+        part = np.flatnonzero(steps == each)
+        m = first[part, None] + np.arange(STEP * each)
+        middle_g, middle_y = np.sqrt(g[part, :1] * g[part, -1:]), 0.5 * (y[part, :1] + y[part, -1:])
+        exponent = m * np.log(middle_g) - _ln_factorial_m(m) - middle_y / m
+        highest, peak = exponent.max(axis=1), np.take_along_axis(m, exponent.argmax(axis=1)[:, None], axis=1)
+        ln_g = np.log(g[part] / middle_g)
+        rising = np.exp(ln_g[:, :, None] * (m - peak)[:, None] + (exponent - highest[:, None])[:, None])
+        fading = np.exp((middle_y - y[part])[:, None] / m[:, :, None])
+        out[part] = np.log(rising @ fading)
+        out[part] += (highest[:, None] + peak * ln_g - g[part])[:, :, None]
+    return out
+
+
 def peak_of_summand(g, y):
     """Where the peak of the summand is: u, its top m* and its width."""
     scale = np.maximum(g, 1e-120)  # squared without underflow; this only places windows and nodes
@@ -49,13 +76,18 @@ def peak_of_summand(g, y):
 
 def _over_orders(g, y, top, width, derivatives):
     """The sum over the whole numbers around a narrow peak."""
-    first = np.maximum(np.floor(top - 8.5 * width - 2), 1).astype(int)
-    count = int(np.ceil(np.max(top + 12 * width + 14 - first)))
-    m = first[:, None] + np.arange(count)
+    first, last = _window(top, width)
+    m = first[:, None] + np.arange(int(np.max(last - first)))
     exponent = m * np.log(g)[:, None] - _ln_factorial_m(m) - y[:, None] / m
     highest, term, total = _scaled(exponent)
     value = highest - g + np.log(total)
     return (value, (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total) if derivatives else (value,)
+
+
+def _window(top, width):
+    """The first order that counts, and the one behind the last."""
+    first = np.maximum(np.floor(top - 8.5 * width - 2), 1).astype(int)
+    return first, np.ceil(top + 12 * width + 14).astype(int)
 
 
 def _ln_factorial_m(m):

@@ -11,7 +11,7 @@ from math import log
 
 import numpy as np
 
-from ._series import by_terms, peak_of_summand
+from ._series import by_products, by_terms, peak_of_summand
 
 TAIL = 1e-12  # of ln S: smaller Chebyshev coefficients are dropped
 NOISE = 4e-15  # of the largest |ln S| of a cell: below it coefficients are rounding, and are dropped
@@ -99,17 +99,25 @@ def _fill(codes):
         along_g, along_y = (np.cos(np.pi * (np.arange(count) + 0.5) / count) for count in size)
         octave, part = np.divmod(np.array(codes), PARTS)
         row, column = np.divmod(octave, OCTAVES_Y)
-        g = 2.0 ** (G_FIRST + row[:, None, None] + (1 + along_g[:, None]) / 2)
-        b = column[:, None, None] + (part[:, None, None] + (1 + along_y) / 2) / SPLIT[octave][:, None, None]
-        g, b = np.broadcast_arrays(g, b)
-        y = (2.0**b - 1) * np.maximum(g, 4.0)
-        values = by_terms(g.ravel(), y.ravel(), derivatives=False)[0].reshape(g.shape)
+        g = 2.0 ** (G_FIRST + row[:, None] + (1 + along_g) / 2)
+        b = column[:, None] + (part[:, None] + (1 + along_y) / 2) / SPLIT[octave][:, None]
+        values = _at_nodes(g, 2.0**b - 1)
         by_g, by_y = (_transform(count) for count in size)
         tails = TAIL + NOISE * np.abs(values).max(axis=(1, 2))
-        CELLS.update(
-            (code, _powers(each, tail)) for code, each, tail in zip(codes, by_g @ values @ by_y.T, tails, strict=True)
-        )
+        CELLS.update(zip(codes, _powers(by_g @ values @ by_y.T, tails[:, None, None]), strict=True))
         codes = [code for code in codes if CELLS[code] is None]
+
+
+def _at_nodes(g, ratio):
+    """ln S of every g (cells, n) and every y/max(g, 4) (cells, k): (cells, n, k)."""
+    values = np.empty((*g.shape, ratio.shape[1]))
+    apart = g.max(axis=1) <= 4  # y does not depend on g
+    if apart.any():
+        values[apart] = by_products(g[apart], 4.0 * ratio[apart])
+    if not apart.all():
+        pairs = np.broadcast_arrays(g[~apart, :, None], g[~apart, :, None] * ratio[~apart, None, :])
+        values[~apart] = by_terms(*(each.ravel() for each in pairs), derivatives=False)[0].reshape(pairs[0].shape)
+    return values
 
 
 @cache
@@ -120,18 +128,22 @@ def _transform(count):
     return transform
 
 
-def _powers(chebyshev, tail):
-    """Coefficients of powers from Chebyshev's, without their tail, and of both derivatives; None if the tail has not
-    died out."""
-    large = np.abs(chebyshev) > tail
-    n_g, n_y = (np.flatnonzero(large.any(axis=axis)).max() + 1 for axis in (1, 0))
-    if n_g > len(chebyshev) - 2 or n_y > chebyshev.shape[1] - 2:
-        return None
-    cell = np.zeros((3, n_y, n_g))
-    cell[0] = _to_powers(n_y) @ chebyshev[:n_g, :n_y].T @ _to_powers(n_g).T
-    cell[1, :, :-1] = np.arange(1, n_g) * cell[0, :, 1:]
-    cell[2, :-1] = np.arange(1, n_y)[:, None] * cell[0, 1:]
-    return cell
+def _powers(chebyshev, tails):
+    """Of each cell the coefficients of powers from Chebyshev's, without their tail, and of both derivatives; None if
+    the tail has not died out."""
+    _, most_g, most_y = chebyshev.shape
+    large = np.abs(chebyshev) > tails
+    n_g = most_g - large.any(axis=2)[:, ::-1].argmax(axis=1)
+    n_y = most_y - large.any(axis=1)[:, ::-1].argmax(axis=1)
+    kept = (np.arange(most_g) < n_g[:, None])[:, :, None] & (np.arange(most_y) < n_y[:, None])[:, None]
+    cells = np.zeros((len(chebyshev), 3, most_y, most_g))
+    cells[:, 0] = _to_powers(most_y) @ np.where(kept, chebyshev, 0.0).transpose(0, 2, 1) @ _to_powers(most_g).T
+    cells[:, 1, :, :-1] = np.arange(1, most_g) * cells[:, 0, :, 1:]
+    cells[:, 2, :-1] = np.arange(1, most_y)[:, None] * cells[:, 0, 1:]
+    return [
+        None if g > most_g - 2 or y > most_y - 2 else cell[:, :y, :g].copy()
+        for cell, g, y in zip(cells, n_g.tolist(), n_y.tolist(), strict=True)
+    ]
 
 
 @cache

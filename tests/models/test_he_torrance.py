@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from brdfguide.models import he_torrance as he
-from brdfguide.models._series import by_terms
+from brdfguide.models._series import by_products, by_terms
 from brdfguide.models._series_cells import ln_series
 from brdfguide.physics.geometry import Geometry, in_plane
 
@@ -121,6 +121,18 @@ def test_sum_and_its_derivatives_agree_with_40_digits_with_seed_31():
             np.max((np.abs(slow[row] - right[row]) / np.maximum(1.0 if row == 1 else 1e-3, np.abs(right[row])))[~deep])
             < 1e-10
         )
+
+
+def test_products_of_orders_are_the_terms_and_a_cell_hangs_on_no_other_with_seed_33():
+    random = np.random.default_rng(33)
+    g = 2.0 ** (random.integers(-42, 2, 120)[:, None] + np.linspace(0.99, 0.01, 5))
+    y = 4 * (2.0 ** (random.integers(0, 128, 120)[:, None] / 8 + np.linspace(0.125, 0, 7)) - 1)
+    found = by_products(g, y)
+    pairs = (each.ravel() for each in np.broadcast_arrays(g[:, :, None], y[:, None, :]))
+    right = by_terms(*pairs)[0].reshape(found.shape)
+    assert np.max(np.abs(found - right) / np.maximum(1.0, np.abs(right) / 200)) < 5e-13
+    alone = [by_products(g[[each]], y[[each]])[0] for each in range(0, 120, 7)]
+    np.testing.assert_array_equal(found[::7], alone)
 
 
 @pytest.mark.parametrize("g", [1e-6, 0.3, 4.0, 33.0, 64.0, 1000.0, 1e7])
