@@ -68,8 +68,14 @@ def run_command(argv: list[str]) -> int:
     if ASKED in os.environ:
         asked = None
         known = wanted(known)
-    app = build([asked] if asked in known and "--show-completion" not in argv else known)
     try:
+        if argv[:1] == ["recommend"] and ASKED not in os.environ:
+            from ._described import answered_description
+
+            status = answered_description(argv[1:])
+            if status is not None:
+                return status
+        app = build([asked] if asked in known and "--show-completion" not in argv else known)
         return app(argv, prog_name="brdfguide", standalone_mode=False) or 0
     except Exception as error:
         if "--debug" in argv:

@@ -1,63 +1,15 @@
-"""What `recommend` was given: descriptions, measurements, or both."""
-
-from dataclasses import dataclass
-from pathlib import Path
+"""What `recommend` makes of measurements, alone or beside a description."""
 
 from .. import printable
 from ..errors import InputError
 from ..opening import exists, is_plain
+from ._described import Data
 from ._fitting import expressions
 from ._numbers import numbers_of
 from ._options import print_json, progress, tell
 from ._report import show_ranking
 from ._scene import of_ranking
 from ._surface import export_fitted
-
-
-@dataclass(frozen=True)
-class Data:
-    """A file of measured data, and the description that names it, if one does."""
-
-    path: Path
-    named_in: str = ""
-
-
-def sort_inputs(inputs: list[str]):
-    """Descriptions as read, and measurements, also those that a description names.
-
-    All bad files are named at once.
-    """
-    from ..advice import library, material
-
-    described, measured = [], []
-    wrong: list[str] = []
-    for each in inputs:
-        is_file = each == "-" or each.endswith((".yaml", ".yml"))
-        named = not is_file and ("." in Path(each).name or "/" in each or exists(each))
-        if named or (is_file and _is_measurement(each)):
-            measured.append(Data(Path(each)))
-            continue
-        try:
-            made = material.read_material(each if is_file else library.path(each))
-        except InputError as error:
-            wrong += error.args
-            continue
-        described.append(made)
-        measured += [Data(Path(each).parent / name, each) for name in made.measurements]
-    if wrong:
-        raise InputError(*wrong)
-    if measured and len(described) > 1:
-        raise InputError(
-            f"{len(described)} descriptions with a measurement; give one description, so that it is clear whose "
-            f"measurement it is"
-        )
-    return described, measured
-
-
-def _is_measurement(path: str) -> bool:
-    from ..data import formats  # takes longer than a described answer's rules
-
-    return formats.is_described(path)
 
 
 def with_measurements(answers, measured: list[Data], request) -> None:
@@ -118,7 +70,7 @@ def _with_measurement(advised, advised_document: dict | None, file: Data, reques
     from ..fitting.job import Job
     from ..models import candidates
     from ..report.documents import fit as document
-    from ..report.documents.recommendation import with_measurement
+    from ..report.documents.measured_recommendation import with_measurement
     from ..report.text.as_shader import as_shader_text
 
     names, output = expressions(request.models), request.output

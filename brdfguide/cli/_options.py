@@ -13,6 +13,7 @@ from typer import Option
 from .. import printable
 from ..errors import choices
 from ..files import picture_kind, writable
+from ._described import json_text
 from ._streams import say, whisper
 
 PATTERNS = ("{stem}", "{parent}")
@@ -56,12 +57,8 @@ def command_line() -> str:
 
 
 def print_json(document: dict) -> None:
-    """One JSON object; NaN and infinity are null, since JSON has neither."""
-    import json
-
-    from ..report.documents.plain import plain
-
-    say(json.dumps(plain(document), indent=2, allow_nan=False))
+    """One JSON object on stdout."""
+    say(json_text(document))
 
 
 def answer(document: dict, json: bool, words: Callable[[dict], str]) -> None:

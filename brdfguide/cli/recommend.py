@@ -8,11 +8,12 @@ from typer import Argument, Context, Exit, Option
 
 from .. import printable
 from ..errors import BrdfguideError, InputError
+from ._described import sort_inputs, status_of_descriptions
 from ._fitting import ModelsOption, expressions
-from ._inputs import sort_inputs, with_measurements
+from ._inputs import with_measurements
 from ._many import Many
 from ._numbers import NumbersOption, numbers_of
-from ._options import FullOption, Output, print_json, remark, tell
+from ._options import FullOption, Output, print_json, tell
 from ._report import Pictures, show_answer
 from ._request import refuse
 from ._scene import SceneOption, of_answer
@@ -131,13 +132,7 @@ def of_descriptions(answers, request: RecommendRequest) -> None:
         tell("\n\n".join(texts))
     if failed:
         raise failed
-    outside = [each for each in answers if not each.candidates]
-    for each in outside:
-        remark(
-            f"brdfguide: {each.material.name or 'this surface'} is outside the guide's domain: "
-            f"{each.reasons[0].says}; --anyway answers all the same"
-        )
-    if outside:
+    if status_of_descriptions(answers):
         raise Exit(1)
 
 

@@ -115,8 +115,8 @@ def _at_nodes(g, ratio):
     if apart.any():
         values[apart] = by_products(g[apart], 4.0 * ratio[apart])
     if not apart.all():
-        pairs = np.broadcast_arrays(g[~apart, :, None], g[~apart, :, None] * ratio[~apart, None, :])
-        values[~apart] = by_terms(*(each.ravel() for each in pairs), derivatives=False)[0].reshape(pairs[0].shape)
+        every_g, y = np.broadcast_arrays(g[~apart, :, None], g[~apart, :, None] * ratio[~apart, None, :])
+        values[~apart] = by_terms(every_g.ravel(), y.ravel(), derivatives=False)[0].reshape(y.shape)
     return values
 
 

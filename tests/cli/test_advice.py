@@ -11,6 +11,7 @@ import pytest
 
 from brdfguide import models
 from brdfguide.cli import main
+from brdfguide.cli._described import answered_description
 
 from ..conftest import ROOT
 
@@ -32,6 +33,37 @@ def run(*words: str, stdin: str = "", status: int = 0) -> SimpleNamespace:
 
 def answer(*words: str, stdin: str = "", status: int = 0) -> dict:
     return json.loads(run(*words, "--json", stdin=stdin, status=status).stdout)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "porcelain --json --no-timing",
+        "--full Gold_Leaf --no-timing",
+        "--explain -q examples/mug.yaml --no-timing",
+        "hair.yaml",
+        "hair.yaml --anyway --json --no-timing",
+        "hair.yaml --json",
+    ],
+)
+def test_an_answer_without_the_full_parser_is_the_same(words, tmp_path):
+    (tmp_path / "hair.yaml").write_text("structure: hair\n")
+    status = int(words.startswith("hair") and "--anyway" not in words)
+    words = words.replace("hair", str(tmp_path / "hair"))
+
+    def said(*before: str) -> SimpleNamespace:
+        return run(*before, "recommend", *words.split(), status=status)
+
+    with mock.patch("brdfguide.cli._app.build", side_effect=AssertionError):
+        quickly = said()
+    assert quickly == said("--debug")
+
+
+@pytest.mark.parametrize(
+    "words", ["nosuch", "examples/rough_plastic.csv", "porcelain --json --full", "porcelain gold-leaf", "-", "--help"]
+)
+def test_all_else_is_left_to_the_full_parser(words):
+    assert answered_description(words.split()) is None
 
 
 def test_a_name_gives_a_pick_with_numbers_ready_to_type():

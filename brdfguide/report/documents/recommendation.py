@@ -6,9 +6,6 @@ from ...advice.guidelines.choice import sample_like
 from ...advice.guidelines.joint import reading
 from ...advice.inference import Inference
 from ...advice.recommend import EFFECTS, Proposal, Recommendation
-from ...data.metal_or_dielectric import Verdict
-from .digest import KEY
-from .findings import finding
 
 # filled field of a Material -> name outside, factor
 SHOWN = {
@@ -107,18 +104,6 @@ def _inferred(found: Inference) -> dict:
             for each in found.given.observations
         ],
     }
-
-
-def with_measurement(said: dict | None, judged: Verdict, differ, fitted: dict) -> dict:
-    """A fit's document with the verdict on the data and, for a description, its `document` and where they disagree."""
-    own = {
-        "schema": "brdfguide/recommend/1",
-        "measured_verdict": {"kind": judged.kind, "evidence": list(judged.evidence), "numbers": dict(judged.numbers)},
-        "disagreements": [finding(each) for each in differ],
-        "left_out": (said or {}).get("left_out", []) + fitted["left_out"],
-    }
-    fitted = {key: value for key, value in fitted.items() if key != KEY}  # the digest was that of the fit alone
-    return {**(said or {}), **fitted, **own} | ({"recommended_by_guidelines": said["recommended"]} if said else {})
 
 
 def _silent(rule) -> dict:
