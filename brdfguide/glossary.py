@@ -46,6 +46,8 @@ WORDS = {
         "75 over 10 deg": "the same of a recommended model: x6 means six times as bright; `image` is its mirror image",
         "domain": "what the report's rules are made for: opaque surfaces with random bumps, the same from all sides",
         "emergence": "the angle from which on a mirror image appears on a rough surface",
+        "criterion": "He and Torrance's: an image emerges where mirror and highlight are equally bright to the eye",
+        "Eq. 3": "the report's short formula for it, sigma = C/(tau^0.7 + 6), with C from its Table 2",
         "gloss": "a glossmeter's units at 20, 60 or 85°: the mirror beam beside that of black glass, which has 100",
         "haze": "the share of the reflected light just outside the mirror direction",
         "for the eye": "the change of a number from which on the surface looks different",

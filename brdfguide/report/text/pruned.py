@@ -111,7 +111,7 @@ def _saving(part: dict) -> str:
 
 def _bound(value) -> str:
     """A closed form's upper bound, where there is one that says something."""
-    return "-" if value is None or value > 999 else f"{value:.2g}"
+    return "-" if value is None or value > 999 else f"{float(f'{value:.2g}'):g}"
 
 
 def _pareto_table(block: dict) -> str:
