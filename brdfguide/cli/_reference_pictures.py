@@ -27,7 +27,7 @@ BALL = 96  # pixels
 FINER = 2  # times: the picture is drawn, and then made smaller
 PICTURE = 312  # pixels of the whole, of which the ball takes a square of FINER * BALL
 INKS, BALL_COLOURS = 32, 128  # colours that a picture needs, which make its file small
-UNDRAWN = {"mirror", "retro-tape"}  # without a finite part; and too sharp for the preview's sky, which shows rings
+UNDRAWN = {"mirror"}  # without a finite part
 
 
 def law_picture(name: str) -> bytes:
