@@ -133,7 +133,7 @@ def _pareto_table(block: dict) -> str:
 def _label(each: dict) -> str:
     if each["other_law"]:
         return f"{each['model']} instead, without {', '.join(each['without'])}"
-    return "without " + (", ".join(each["without"]) or "nothing")
+    return f"without {', '.join(each['without'])}" if each["without"] else "all of it"
 
 
 def _angular_range(block: dict) -> str:
