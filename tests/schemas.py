@@ -26,6 +26,7 @@ COMMANDS = (
     f"fit {PAPER} -m lambertian --json --no-timing --as gltf",
     f"fit {ALUMINIUM} -m ggx --kind metal --json --baselines --export mitsuba:{{out}}/it.xml --aperture-deg 1",
     "fit {abg} --json --no-timing",
+    "fit {grain} -m ggx-aniso --kind metal --json --no-timing",
     f"fit {PAPER} {PLASTIC} -m lambertian --json",
     f"inspect {PAPER} {PLASTIC} --json",
     "recommend --files-from {listed} --no-timing --json",
@@ -174,8 +175,9 @@ def documents(folder: Path) -> list[tuple[str, dict]]:
     for name, text in FILES.items():
         (folder / name).write_text(text)
     names = {path.stem: str(path) for path in sorted(folder.iterdir())} | {"out": str(folder)}
-    names |= {"fit": str(folder / "fit.json"), "abg": str(folder / "abg.csv")}
+    names |= {name.partition(".")[0]: str(folder / name) for name in ("fit.json", "abg.csv", "grain.csv")}
     (folder / "abg.csv").write_text(_polished())
+    (folder / "grain.csv").write_text(_grained())
     fit = printed(f"fit {PAPER} -m lambertian+ggx,lambertian+ward --json --no-timing", names)
     (folder / "fit.json").write_text(json.dumps(fit))
     found = [(line, printed(line, names)) for line in COMMANDS]
@@ -193,6 +195,20 @@ def _polished() -> str:
             x = abs(sin(radians(angle)) - sin(radians(5)))
             lines.append(f"5,{angle:g},{1e-4 / (1e-5 + x**1.8):.6g}")
     return "\n".join(lines) + "\n"
+
+
+def _grained() -> str:
+    """Scans of a brushed metal under four turns."""
+    import numpy as np
+
+    from brdfguide.models import term
+    from brdfguide.physics.geometry import Geometry, rows
+
+    turn, theta_i, theta_r = (each.ravel() for each in np.meshgrid([0, 45, 90, 135], [20, 50], np.arange(-75, 80, 5)))
+    geom = rows(Geometry.from_degrees(theta_i, turn, np.abs(theta_r), turn + np.where(theta_r < 0, 0, 180)))
+    brdf = term("ggx-aniso")(geom, alpha_x=0.3, alpha_y=0.1, axis=0.5, n=1.0, k=4.0, scale=1.0)[:, 0]
+    cells = zip(turn, theta_i, theta_r, brdf, strict=True)
+    return "phi_i,theta_i,theta_r,brdf\n" + "".join(f"{a},{b},{c},{d:.6g}\n" for a, b, c, d in cells)
 
 
 # --- the shape of values -------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from .checks import jacobian_condition
 from .trials import SCAN
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 70.0, 75.0, 80.0, *np.arange(82.0, 90.0), 89.5, 89.9, 89.99)
+TURNS_DEG = np.array([0.0, 45.0, 90.0, 135.0])  # of a surface with a grain, from its axis
 ENERGY = 1.002  # reflectance above which a surface gains energy; the quadrature is right to 1e-3
 COARSE = 2 * hemisphere.STEP  # between nodes: right to 1e-3 for lobes wider than 0.1°
 NARROW = 2.0  # full width [deg] below which blind sampling of directions misses a lobe
@@ -34,9 +35,19 @@ def audit_fitted(surface: Surface):
     return checks, findings
 
 
+def _turns_deg(surface: Surface) -> np.ndarray:
+    """Azimuths of the light across the grain, along it and between."""
+    of_terms = (surface.values_of(term) for term in surface.model.terms)
+    axes = [float(np.mean(values["axis"])) for values in of_terms if "axis" in values]
+    return np.degrees(axes[0] if axes else 0.0) + TURNS_DEG
+
+
 def _energy(surface: Surface):
-    """Where more comes out than goes in, mirror reflection included."""
-    dhr = hemisphere.dhr(surface.brdf, ANGLES, step=COARSE)
+    """Where more comes out than goes in, mirror reflection included; of a surface with a grain under any turn."""
+    if surface.model.turns:
+        dhr = hemisphere.dhr_under_turns(surface.brdf, ANGLES, _turns_deg(surface)).max(axis=0)
+    else:
+        dhr = hemisphere.dhr(surface.brdf, ANGLES, step=COARSE)
     dhr = dhr + surface.mirror(rows(in_plane(np.array(ANGLES), 0.0)))
     most = dhr.max(axis=1)
     too_much = np.flatnonzero(most > ENERGY)

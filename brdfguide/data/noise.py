@@ -21,12 +21,16 @@ ASKED = 1000  # directions compared with their neighbours where there are no sca
 EDGE_DEG = 75.0  # beyond this a scan may be cut off
 DETECTED = 3.0  # doubts of the dark level above which a value tells from nothing (IUPAC's detection)
 SPECTRUM = 5  # channels
+PLATEAU, LEAST_PLATEAU = 0.15, 20  # share and number of values at one level, from which on it is a detector's
+ONE_LEVEL = 1.6  # times: what counts as one level, its noise included (ours)
+BLACKEST = 2e-4  # reflectance; the blackest coatings known, of carbon nanotubes, send back some 3.5e-4
+LEAST_RANGE = 1e5  # over which values reach from there; below it, it may be a polished surface's own scatter (ours)
 FEW_NEGATIVE = 3  # values; fewer below zero say nothing of the noise
 
 
 @formed
 def estimated_noise(measurement: Measurement) -> NoiseModel:
-    """What single values are worth: from neighbours, from exchanged pairs, from negative values and a stated floor."""
+    """What single values are worth: from neighbours, from exchanged pairs, from negative values and from floors."""
     if measurement.noise is not None:  # as it was found before anything was left out
         return measurement.noise
     level, departure = _against_neighbours(measurement)
@@ -35,7 +39,9 @@ def estimated_noise(measurement: Measurement) -> NoiseModel:
     shown = exchanged is not None and exchanged.shows
     channels = len(measurement.channels)
     doubt = np.maximum(_by_channel(level, departure, parts), 0.0 if exchanged is None else exchanged.doubt)
-    doubt = np.maximum(_along_spectrum(doubt), max(_of_negative(measurement), _of_floor(measurement)))
+    doubt = np.maximum(
+        _along_spectrum(doubt), max(_of_negative(measurement), _of_floor(measurement), detector_floor(measurement))
+    )
     nothing = (0.0,) * channels
     return NoiseModel(
         relative=None if parts is None else parts[0],
@@ -142,6 +148,21 @@ def _of_floor(measurement: Measurement) -> float:
     """Absolute doubt of an instrument whose lowest value is repeated: that is where it stops telling."""
     floors = [dict(each.numbers)["floor_per_sr"] for each in measurement.findings if each.effect is Effect.STATES_FLOOR]
     return max(floors, default=0.0) / DETECTED
+
+
+def detector_floor(measurement: Measurement) -> float:
+    """Absolute doubt of an instrument whose dimmest values all stand at one level, darker than any surface's body: what
+    lies there is the detector's."""
+    found = 0.0
+    for values, usable in zip(measurement.brdf.T, measurement.usable.T, strict=True):
+        dim = np.sort(values[usable])
+        lowest = dim[: int(PLATEAU * len(dim))]
+        if len(lowest) < LEAST_PLATEAU:
+            continue
+        one_level = lowest[-1] < ONE_LEVEL * lowest[len(lowest) // 20]
+        if one_level and np.pi * lowest[-1] < BLACKEST and dim[-1] > LEAST_RANGE * lowest[-1]:
+            found = max(found, float(np.median(lowest)))
+    return found
 
 
 def _in_file_order(level):

@@ -9,7 +9,8 @@ off at grazing are found without being looked for.
 """
 
 from collections.abc import Callable
-from functools import lru_cache
+from dataclasses import replace
+from functools import lru_cache, partial
 from itertools import pairwise
 from math import pi
 
@@ -28,10 +29,26 @@ def dhr(brdf: Callable[[Geometry], np.ndarray], theta_i_deg, step: float = STEP,
 
     Takes  brdf(geom) giving (samples, channels) [1/sr], theta_i_deg (angles) in 0 <= θ < 90; `streaks` has nodes for
     lobes that are eight times as long as wide, along the plane of incidence and across it.    Gives  (angles,
-    channels).    Symmetric about the plane of incidence: isotropic laws, and a grain along it or across it.
+    channels).    Symmetric about the plane of incidence: isotropic laws, and a grain along it or across it;
+    `dhr_under_turns` for others.
     """
     nodes = (hemisphere_directions(float(theta), step, streaks) for theta in np.ravel(theta_i_deg))
     return np.stack([weights @ brdf(geom) for geom, weights in nodes])
+
+
+def dhr_under_turns(brdf, theta_i_deg, turns_deg, step: float = STEP) -> np.ndarray:
+    """The same of a surface with a grain that lies anyhow, for each azimuth of the light: both sides of the plane of
+    incidence are summed.
+
+    Takes  turns_deg (turns,).    Gives  (turns, angles, channels).
+    """
+
+    def both_sides(geom: Geometry, turn: float) -> np.ndarray:
+        other = Geometry(replace(geom.directions, phi_deg=-geom.phi_deg), geom.wavelength)
+        return 0.5 * (brdf(geom.at_azimuth(turn)) + brdf(other.at_azimuth(turn)))
+
+    whole = (partial(both_sides, turn=float(turn)) for turn in np.ravel(turns_deg))
+    return np.stack([dhr(each, theta_i_deg, step, streaks=True) for each in whole])
 
 
 @lru_cache(maxsize=32)

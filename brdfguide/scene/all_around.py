@@ -27,6 +27,17 @@ TURN = 0.618  # of a spoke, from ring to ring
 BLOCK = 256  # pixels that are looked up at a time
 
 
+def half_vectors(width: float, rings: int, spokes: int) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors (points, 3) on rings about the normal for a lobe of `width` [rad], and 4 dωh of each."""
+    edges = np.linspace(np.log(LEAST_TILT * width), np.log(MOST_TILT), rings + 1)
+    t = np.exp(0.5 * (edges[1:] + edges[:-1]))[:, None]
+    phi = 2 * pi / spokes * (np.arange(spokes) + 0.5 + TURN * np.arange(rings)[:, None])
+    cosine = 1 / np.sqrt(1 + t * t)
+    half = np.stack(np.broadcast_arrays(t * cosine * np.cos(phi), t * cosine * np.sin(phi), cosine), axis=-1)
+    area = np.broadcast_to(4 * t * t * cosine**3 * (edges[1] - edges[0]) * 2 * pi / spokes, phi.shape)
+    return half.reshape(-1, 3), area.ravel()
+
+
 @dataclass(frozen=True, eq=False)
 class AllAround:
     """The quadrature of one picture: half vectors, angles of view, and what each pixel sees by each half vector."""
@@ -40,14 +51,7 @@ class AllAround:
     @cached_property
     def half_vectors(self) -> tuple[np.ndarray, np.ndarray]:
         """Half vectors (points, 3) in the frame whose first axis points to the camera's side, and 4 dωh of each."""
-        rings, spokes = (FEWER_RINGS, FEWER_SPOKES) if self.fewer else (RINGS, SPOKES)
-        edges = np.linspace(np.log(LEAST_TILT * self.width), np.log(MOST_TILT), rings + 1)
-        t = np.exp(0.5 * (edges[1:] + edges[:-1]))[:, None]
-        phi = 2 * pi / spokes * (np.arange(spokes) + 0.5 + TURN * np.arange(rings)[:, None])
-        cosine = 1 / np.sqrt(1 + t * t)
-        half = np.stack(np.broadcast_arrays(t * cosine * np.cos(phi), t * cosine * np.sin(phi), cosine), axis=-1)
-        area = np.broadcast_to(4 * t * t * cosine**3 * (edges[1] - edges[0]) * 2 * pi / spokes, phi.shape)
-        return half.reshape(-1, 3), area.ravel()
+        return half_vectors(self.width, *((FEWER_RINGS, FEWER_SPOKES) if self.fewer else (RINGS, SPOKES)))
 
     @cached_property
     def nodes(self) -> np.ndarray:

@@ -21,6 +21,7 @@ from .radiance import Quadrature
 REFIT_PIXELS = 600  # enough for the few amplitudes that a refit moves
 REPRODUCED = 1.5  # times the error of the first sample: how much worse a fresh sample may be
 UNSEEN = 0.05  # JND, that a difference has to exceed to be of any interest
+TURNS_DEG = tuple(range(0, 180, 15))  # under which a lobe with a grain is looked at
 DARK = 1e-12  # of a perfect white: below this a reference pixel says nothing
 
 
@@ -238,8 +239,13 @@ def _follows(model, values) -> bool:
 
 
 def lobe_width(surface: Surface) -> float:
-    """Half width at half height [rad] of the narrowest lobe about the mirror direction at 30°; at most 0.5."""
+    """Half width at half height [rad] of the narrowest lobe about the mirror direction at 30°; at most 0.5. With a
+    grain the least under several turns."""
     away = np.degrees(np.geomspace(1e-3, 0.5, 120))
-    f = surface.brdf(in_plane(30.0, 30.0 + np.concatenate([[0.0], away])[:, None])).mean(axis=1)
-    narrow = np.flatnonzero(f - f[-1] < 0.5 * (f[0] - f[-1]))
-    return float(np.radians(away[max(narrow[0] - 1, 0)])) if f[0] > 1.2 * f[-1] and narrow.size else 0.5
+    geom, widths = in_plane(30.0, 30.0 + np.concatenate([[0.0], away])[:, None]), []
+    for turn in TURNS_DEG if surface.model.turns else TURNS_DEG[:1]:
+        f = surface.brdf(geom.at_azimuth(turn)).mean(axis=1)
+        narrow = np.flatnonzero(f - f[-1] < 0.5 * (f[0] - f[-1]))
+        shows = f[0] > 1.2 * f[-1] and narrow.size
+        widths.append(float(np.radians(away[max(narrow[0] - 1, 0)])) if shows else 0.5)
+    return min(widths)

@@ -17,6 +17,8 @@ import numpy as np
 from ..numerics import sphere
 from .scene import DirectionRange, Scene
 
+LISTED_TURNS = 24  # of a sample with a grain, for each listed pair of directions
+
 
 @dataclass(frozen=True)
 class Range:
@@ -150,6 +152,29 @@ def sampled(scene: Scene, size: int, seed: int, width: float):
         return weights, camera, lights, _upright(scene, size, rng)
     frame = np.stack([*sphere.tangents(normals), normals], axis=1)
     return weights, np.einsum("sij,sj->si", frame, camera), np.einsum("sij,slj->sli", frame, lights), frame
+
+
+def under_turns(scene: Scene, weights, camera, lights, frame):
+    """The same four in the frames of a sample with a grain: azimuth 0 lies along the meridians of a sphere, a cylinder
+    and the sides of a box, toward the object's axis, and the sample is turned by what the scene says. Listed directions
+    are repeated under each of LISTED_TURNS."""
+    low, high = (radians(angle) for angle in scene.turns_deg)
+    count = len(weights)
+    if scene.pairs and high > low:
+        weights, camera, lights = (np.repeat(each, LISTED_TURNS, axis=0) for each in (weights, camera, lights))
+        weights, share = weights / LISTED_TURNS, np.tile((np.arange(LISTED_TURNS) + 0.5) / LISTED_TURNS, count)
+    else:  # through all values, in no order that a pixel's place has
+        share = np.remainder(np.arange(count) * (sphere.GOLDEN_ANGLE / (2 * pi)), 1.0)
+    turn = low + (high - low) * share
+    frame = np.broadcast_to(frame, (len(turn), 3, 3))
+    if scene.shape in ("sphere", "cylinder", "box") and not scene.pairs:
+        turn = turn + np.arctan2(frame[:, 1, 2], frame[:, 0, 2])
+    cos, sin, zero = np.cos(turn), np.sin(turn), np.zeros(len(turn))
+    axes = np.stack(
+        [np.stack([cos, sin, zero], 1), np.stack([-sin, cos, zero], 1), np.stack([zero, zero, zero + 1], 1)], 1
+    )
+    camera, lights = np.einsum("sij,sj->si", axes, camera), np.einsum("sij,slj->sli", axes, lights)
+    return weights, camera, lights, axes @ frame
 
 
 def _upright(scene: Scene, size: int, rng) -> np.ndarray:

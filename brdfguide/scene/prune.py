@@ -18,7 +18,7 @@ from ..errors import NoAnswer
 from ..finding import Finding
 from ..models import cost
 from ..models.cost import Saving, Time
-from ..models.looks import seen_difference
+from ..models.looks import seen_difference, turns
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
 from . import bounds as analytic
@@ -165,7 +165,7 @@ def _doubts(found: Pruned, picture: Picture, geom_of_data: Geometry | None, timi
 
 def _picture(features: Features, scene: Scene, size: int, seed: int, width: float) -> Picture | None:
     """The model seen through `scene`; None if nothing is lit and seen."""
-    sampled = radiance.sample(scene, size, seed, width)
+    sampled = radiance.sample(scene, size, seed, width, turns(features.surface))
     if not len(sampled):
         return None
     picture = Picture(features, sampled)

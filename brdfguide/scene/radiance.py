@@ -17,6 +17,7 @@ from ..numerics import sphere
 from ..physics.geometry import Geometry, rows
 from . import lamps, pixels
 from .all_around import AllAround
+from .grained_around import GrainedAround
 from .lamps import FLIP
 from .scene import Scene
 
@@ -35,6 +36,7 @@ class Quadrature:
     width: float  # of the narrowest lobe [rad]
     to_world: np.ndarray | None = None  # (pixels, 3, 3) to the world of the surroundings, where these have a form
     fewer: bool = False  # whether light from all around is integrated coarsely
+    turns: bool = False  # whether the surface changes as it is turned in its plane
 
     def __len__(self) -> int:
         return len(self.weights)
@@ -88,7 +90,8 @@ class Quadrature:
         around = self.scene.around
         if around is None:
             return None
-        return AllAround(around, self.to_camera, self.to_world, self.width, self.fewer)
+        kind = GrainedAround if self.turns else AllAround
+        return kind(around, self.to_camera, self.to_world, self.width, self.fewer)
 
     @property
     def representative(self) -> Geometry:
@@ -170,15 +173,18 @@ class Quadrature:
         }
 
 
-def sample(scene: Scene, size: int, seed: int, width: float) -> Quadrature:
+def sample(scene: Scene, size: int, seed: int, width: float, turns: bool = False) -> Quadrature:
     """About `size` pixels of `scene`, only those that face the camera and some light; fewer of a thin crescent.
 
-    Takes  width [rad], of the narrowest lobe that may be seen.    Gives  a Quadrature, the same for the same seed.
+    Takes  width [rad], of the narrowest lobe that may be seen; turns, whether the surface changes as it is turned.
+    Gives  a Quadrature, the same for the same seed.
     """
     for more in (1, 8, 64):
         weights, camera, lights, frame = (
             pixels.listed_pixels(scene) if scene.pairs else pixels.sampled(scene, more * size, seed, width)
         )
+        if turns:
+            weights, camera, lights, frame = pixels.under_turns(scene, weights, camera, lights, frame)
         lit = np.any(lights[..., 2] > 0, axis=1) | (scene.around is not None)
         kept = (weights > 0) & (camera[:, 2] > 0) & lit
         if scene.pairs or np.count_nonzero(kept) > size / 4:
@@ -187,4 +193,4 @@ def sample(scene: Scene, size: int, seed: int, width: float) -> Quadrature:
     if scene.around and scene.around.kind != "uniform":
         to_world = np.broadcast_to(scene.around.of_object @ np.swapaxes(frame, -1, -2), (len(kept), 3, 3))[kept]
     weights = weights / max(weights.sum(), 1e-300)
-    return Quadrature(scene, seed, weights, camera[kept], lights[kept], width, to_world)
+    return Quadrature(scene, seed, weights, camera[kept], lights[kept], width, to_world, turns=turns)

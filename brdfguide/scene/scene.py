@@ -11,7 +11,7 @@ from math import pi, sqrt
 from .. import yaml_schema
 from ..physics.display import Display
 from ..yaml_schema import Field
-from .surroundings import KINDS, Surroundings
+from .surroundings import KINDS, Surroundings, sensible_surroundings, surroundings_from_yaml
 
 SHAPES = ("plane", "sphere", "cylinder", "box", "arbitrary")
 COLOURS = ("grey", "rgb", "spectral")
@@ -92,6 +92,7 @@ class Scene:
     pixel_normal_deg: float | None = None  # rms turn of the normal within a pixel; None: from shape and pixels
     display: Display = Display()
     tolerance: Tolerance = Tolerance()
+    turn_deg: tuple[float, float] | None = None  # by which a surface with a grain is turned in its plane
     in_plane: bool = False
     colour: str = "spectral"
     camera_moves: bool = False
@@ -109,6 +110,14 @@ class Scene:
         if self.surroundings is None and self.environment:
             return Surroundings("uniform", self.environment)
         return self.surroundings
+
+    @property
+    def turns_deg(self) -> tuple[float, float]:
+        """By which a surface with a grain is turned in its plane: where that is not said, any way for directions that
+        leave it open, and not at all for an object."""
+        if self.turn_deg is not None:
+            return self.turn_deg
+        return (0.0, 360.0) if self.pairs or self.in_plane else (0.0, 0.0)
 
     @property
     def pixel_normal(self) -> float:
@@ -143,10 +152,11 @@ class Scene:
         )
         around = f"; around it {self.around.describe()}" if self.around else ""
         lights = f"; light {lights}" if lights else ""
+        turned = "" if self.turn_deg is None else f"; turned {_spelt(self.turn_deg)} in its plane"
         size = "" if self.pairs else f"{self.pixels:g} pixels; "
         d = self.display
         return (
-            f"{self.name}: {views}{lights}{around}; {size}{self.colour}; "
+            f"{self.name}: {views}{lights}{around}{turned}; {size}{self.colour}; "
             f"exposure {d.exposure:g}, white {d.white:g}, floor {d.floor:g}, Weber fraction {d.weber:g}; "
             f"{self.tolerance.describe()}"
         )
@@ -237,6 +247,16 @@ FIELDS = (
         choices=("look",),
         meaning="what may differ; look: what keeps its look side by side",
     ),
+    Field(
+        "turn_deg",
+        "numbers",
+        "deg",
+        low=-360,
+        high=360,
+        counts=(1, 2),
+        meaning="by which a surface with a grain is turned in its plane, or its two bounds; 0: `axis` counts from the "
+        "object's azimuth 0, on curved objects from the direction of its axis",
+    ),
     Field("in_plane", "flag", meaning="camera, light and normal in one plane"),
     Field("colour", "word", choices=COLOURS, meaning="what is looked at"),
     Field("camera_moves", "flag", meaning="hold the tolerance on angles 10 % larger and smaller as well"),
@@ -275,7 +295,10 @@ def _sensible(document):
                 f"the environment"
             ),
         )
-    yield from _sensible_surroundings(values)
+    low, high = _both(values.get("turn_deg", (0.0,)))
+    if not low <= high <= low + 360:
+        yield "turn_deg", f"'turn_deg' runs from {low:g} to {high:g}; the smaller comes first, at most 360 apart"
+    yield from sensible_surroundings(values)
     if values.get("in_plane") and shape not in ("plane", "arbitrary"):
         yield "in_plane", f"a {shape} shows normals in every plane; in_plane goes with shape plane or arbitrary"
     places = {
@@ -300,17 +323,6 @@ def _sensible(document):
                 f"{place}.phi_deg",
                 f"'{place}.phi_deg' runs from {low:g} to {high:g}; the smaller comes first, at most 360 apart",
             )
-
-
-def _sensible_surroundings(values):
-    """What is around a scene once only, and which way is up with one angle each."""
-    around = values.get("surroundings")
-    if around is not None and values.get("environment"):
-        yield "environment", "'environment' and 'surroundings' exclude each other: even light is surroundings: uniform"
-    if isinstance(around, dict):
-        for name, angles in around.get("up", {}).items():
-            if len(set(angles)) > 1:
-                yield f"surroundings.up.{name}", f"'surroundings.up.{name}' is a range; upward is one direction"
 
 
 def _scene(document) -> Scene:
@@ -343,9 +355,11 @@ def _scene(document) -> Scene:
             for light in values["lights"]
         )
     if "surroundings" in values:
-        given["surroundings"] = _surroundings(values["surroundings"])
+        given["surroundings"] = surroundings_from_yaml(values["surroundings"])
         if "directions" not in values:
             given.setdefault("lights", ())
+    if "turn_deg" in values:
+        given["turn_deg"] = _both(values["turn_deg"])
     if "directions" in values:
         given["pairs"] = tuple(DirectionPair(**pair) for pair in values["directions"])
     if "display" in values:
@@ -360,17 +374,6 @@ def _scene(document) -> Scene:
     return Scene(**given, source=document.name)
 
 
-def _surroundings(said) -> Surroundings:
-    """Surroundings from their name alone, or from a group."""
-    if isinstance(said, str):
-        return Surroundings(said)
-    up = {name: angles[0] for name, angles in said.get("up", {}).items()}
-    return Surroundings(
-        **{key: said[key] for key in ("kind", "irradiance", "turn_deg") if key in said},
-        up_deg=(up.get("theta_deg", 0.0), up.get("phi_deg", 0.0)),
-    )
-
-
 def _directions(group, every_way) -> DirectionRange:
     return DirectionRange(_both(group.get("theta_deg", every_way)), _both(group.get("phi_deg", (0.0, 360.0))))
 
@@ -381,5 +384,9 @@ def _both(numbers) -> tuple[float, float]:
 
 
 def _range(directions: DirectionRange) -> str:
-    low, high = directions.theta_deg
+    return _spelt(directions.theta_deg)
+
+
+def _spelt(bounds_deg: tuple[float, float]) -> str:
+    low, high = bounds_deg
     return f"{low:g}°" if low == high else f"{low:g}..{high:g}°"

@@ -59,12 +59,12 @@ def counted_directions(picture: Picture) -> Geometry:
     """A few directions of the scene on which operations are counted, whatever was drawn for the picture since."""
     q = picture.quadrature
     scene = replace(q.scene, tolerance=Tolerance())
-    return _counted(scene, q.seed, q.width).at(picture.features.surface.wavelengths)
+    return _counted(scene, q.seed, q.width, q.turns).at(picture.features.surface.wavelengths)
 
 
 @lru_cache(maxsize=4)
-def _counted(scene: Scene, seed: int, width: float) -> Geometry:
-    return radiance.sample(scene, COUNTED_PIXELS, seed, width).representative[: cost.COUNTED]
+def _counted(scene: Scene, seed: int, width: float, turns: bool) -> Geometry:
+    return radiance.sample(scene, COUNTED_PIXELS, seed, width, turns).representative[: cost.COUNTED]
 
 
 def is_out(feature: Feature, ablation: Ablation) -> bool:

@@ -88,6 +88,28 @@ class Surroundings:
         return f"{name.get(self.kind, 'a room with a window')}, {self.irradiance:g}"
 
 
+def surroundings_from_yaml(said) -> Surroundings:
+    """Surroundings from their name alone, or from a group."""
+    if isinstance(said, str):
+        return Surroundings(said)
+    up = {name: angles[0] for name, angles in said.get("up", {}).items()}
+    return Surroundings(
+        **{key: said[key] for key in ("kind", "irradiance", "turn_deg") if key in said},
+        up_deg=(up.get("theta_deg", 0.0), up.get("phi_deg", 0.0)),
+    )
+
+
+def sensible_surroundings(values):
+    """(key, sentence) of what the values of a scene contradict: surroundings once only, and one direction upward."""
+    around = values.get("surroundings")
+    if around is not None and values.get("environment"):
+        yield "environment", "'environment' and 'surroundings' exclude each other: even light is surroundings: uniform"
+    if isinstance(around, dict):
+        for name, angles in around.get("up", {}).items():
+            if len(set(angles)) > 1:
+                yield f"surroundings.up.{name}", f"'surroundings.up.{name}' is a range; upward is one direction"
+
+
 def _uniform(directions, _blur):
     return np.ones(directions.shape[:-1])
 

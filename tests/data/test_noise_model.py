@@ -7,8 +7,10 @@ from brdfguide import models
 from brdfguide.data import examine, formats, noise
 from brdfguide.data.measurement import Measurement
 from brdfguide.data.noise_model import two_parts
+from brdfguide.physics.geometry import in_plane, rows
 
 from .. import synthetic
+from ..conftest import ROOT
 
 
 def dim_run(relative: float, absolute: float, seed: int, channels: int = 1, albedo: float = 0.005) -> Measurement:
@@ -75,3 +77,38 @@ def test_parts_of_a_measurement_keep_the_noise_of_the_whole(data):
     part = measurement[::7].of_channels(np.array([3, 9]))
     assert part.noise.absolute == (measurement.noise.absolute[3], measurement.noise.absolute[9])
     assert part.noise.relative == measurement.noise.relative
+
+
+def on_a_floor(floor: float, scatter: float = 0.1, alpha: float = 0.08) -> Measurement:
+    """A polished metal whose far flanks no detector sees, and what one adds to them."""
+    random, theta_r = np.random.default_rng(1), np.arange(-80.0, 81.0, 2.0)
+    geom = rows(in_plane(np.array([10.0, 40.0, 70.0])[:, None], theta_r))
+    brdf = np.asarray(models.term("beckmann")(geom, alpha=alpha, n=0.96, k=6.7, scale=1.0))
+    added = floor * np.exp(scatter * random.standard_normal(brdf.shape))
+    return Measurement(geom, brdf * (1 + 0.01 * random.standard_normal(brdf.shape)) + added)
+
+
+def test_dimmest_values_at_one_level_that_is_darker_than_any_body_are_the_detectors():
+    measurement = on_a_floor(1e-5)
+    assert noise.detector_floor(measurement) == pytest.approx(1e-5, rel=0.2)
+    assert noise.estimated_noise(measurement).absolute[0] >= noise.detector_floor(measurement)
+    text = " ".join(each.text for each in noise.noise_findings(measurement))
+    assert "ten times the dark level's doubt: upper limits" in text
+
+
+@pytest.mark.parametrize(
+    "measurement",
+    [
+        on_a_floor(2e-3),  # a body of albedo 0.006
+        on_a_floor(1e-5, scatter=1.0),  # no level
+        on_a_floor(1e-5, alpha=0.8),  # hardly a value that dim
+    ],
+    ids=["a black body", "scattered", "bright flanks"],
+)
+def test_no_other_dim_values_are(measurement):
+    assert noise.detector_floor(measurement) == 0.0
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.csv")), ids=lambda path: path.stem)
+def test_no_example_stands_on_a_detectors_floor(path):
+    assert noise.detector_floor(formats.read(path)) == 0.0

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from brdfguide import models
+from brdfguide.data import examine
 from brdfguide.data.measurement import Measurement
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting import grain_walk
@@ -14,6 +15,7 @@ from brdfguide.fitting.layout import Layout
 from brdfguide.fitting.next_measurement import turns_wanted
 from brdfguide.fitting.objective import Misfit, metric
 from brdfguide.models.candidates import Grained, with_grain
+from brdfguide.report.documents.grain_widths import grain_widths
 
 from ..data.test_rotation import scans
 
@@ -130,3 +132,39 @@ def test_without_its_grain_a_law_is_its_parent_of_the_mean_width(name):
     bare = law.without["anisotropy"](geom, **law.defaults() | {"alpha_x": 0.4, "alpha_y": 0.1, "axis": 0.7})
     parent = models.term(name.removesuffix("-aniso"))(geom, alpha=0.2)
     np.testing.assert_allclose(bare, parent, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("alpha", "ratio", "axis"), [(0.08, 3.0, 37.0), (0.05, 2.5, 15.0)])
+def test_a_grain_is_found_above_a_detectors_floor(alpha, ratio, axis):
+    """Where most values only show the detector, those say nothing of the surface."""
+    values = {"alpha_x": alpha * ratio**0.5, "alpha_y": alpha * ratio**-0.5, "axis": np.radians(axis)}
+    clean = scans("beckmann-aniso", [0.0, 45, 90, 135], seed=95, **values)
+    floor = 1e-5 * np.exp(0.1 * np.random.default_rng(96).normal(size=clean.brdf.shape))
+    measurement = examine.prepared(Measurement(clean.geom, clean.brdf + floor))
+    assert np.count_nonzero(~measurement.clear) > 0.3 * measurement.brdf.size
+    names = ("beckmann", "beckmann-aniso")
+    ranked = compare(measurement, [with_grain(models.get(name), Grained()) for name in names])
+    found = ranked.recommended.fit
+    assert found.name.startswith("beckmann-aniso")
+    assert found.values["beckmann-aniso.alpha_x"] / found.values["beckmann-aniso.alpha_y"] == pytest.approx(
+        ratio, rel=0.05
+    )
+    assert abs(np.remainder(np.degrees(found.values["beckmann-aniso.axis"]) - axis + 90, 180) - 90) < 1.0
+
+
+@pytest.mark.parametrize("law", ["ggx-aniso", "he-torrance-aniso"])
+def test_the_ratio_has_an_interval_in_which_both_widths_err_together(law):
+    values = {"alpha_x": 0.2, "alpha_y": 0.1} if law == "ggx-aniso" else {"sigma": 0.5, "slope": 0.1, "ratio": 2.0}
+    clean = scans("ggx", TURNS, alpha=0.2).geom
+    brdf = models.term(law)(clean, **models.term(law).defaults() | values | {"n": 0.958, "k": 6.69, "axis": 0.5})
+    noisy = brdf * (1 + 0.01 * np.random.default_rng(97).normal(size=brdf.shape))
+    measurement = Measurement(clean, np.where(brdf > 1e-6 * brdf.max(), noisy, np.nan))
+    found = fitting.fit(free(law), measurement)
+    known = grain_widths(found, measurement)
+    if law == "ggx-aniso":
+        low, high = known["ggx-aniso.ratio"]["interval"]
+        alone = np.hypot(*(found.stderr[f"{law}.{name}"] / found.values[f"{law}.{name}"] for name in values))
+        assert low < 2.0 < high and 0.2 * alone < known["ggx-aniso.ratio"]["stderr"] / 2.0 < 1.5 * alone
+        assert known["ggx-aniso.alpha"]["stderr"] > 0
+    else:
+        assert found.stderr["he-torrance-aniso.ratio"] > 0 and "he-torrance-aniso.ratio" not in known

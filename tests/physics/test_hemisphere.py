@@ -7,7 +7,9 @@ import pytest
 
 from brdfguide import models
 from brdfguide.models.surface import Surface
+from brdfguide.numerics import sphere
 from brdfguide.physics import fresnel, hemisphere
+from brdfguide.physics.geometry import Geometry
 
 ANGLES = (0.0, 30.0, 60.0, 85.0, 89.99)
 
@@ -63,3 +65,24 @@ def test_sums_and_channels_go_through_the_same_code():
     both = hemisphere.dhr(surface.brdf, [20.0, 70.0])
     assert both.shape == (2, 2)
     np.testing.assert_allclose(both[:, 1] - both[:, 0], 0.5, rtol=1e-8)
+
+
+@pytest.mark.parametrize("axis", [0.6])
+def test_a_grain_that_lies_askew_sends_what_a_sum_by_force_has(axis):
+    brdf = partial(models.term("ggx-aniso"), alpha_x=0.4, alpha_y=0.1, axis=axis, n=1.0, k=1e6, scale=1.0)
+    found = hemisphere.dhr_under_turns(brdf, (0.0, 50.0, 75.0), (0.0, 45.0))[..., 0]
+    place = np.arange(100_000) + 0.5
+    view = sphere.from_angles(np.sqrt(1 - place / len(place)), sphere.GOLDEN_ANGLE * place)
+    for turn, wanted in zip((0.0, 45.0), found, strict=True):
+        light = sphere.from_angles(np.cos(np.radians([0.0, 50.0, 75.0])), np.radians(turn))
+        summed = [np.pi * np.mean(brdf(Geometry.from_vectors(each, view))) for each in light]
+        np.testing.assert_allclose(wanted, summed, rtol=3e-3)
+
+
+def test_a_turn_changes_nothing_for_a_law_without_a_grain():
+    brdf = partial(models.term("ggx"), alpha=0.3, n=1.5, k=0.0, scale=1.0)
+    np.testing.assert_allclose(
+        hemisphere.dhr_under_turns(brdf, (10.0, 70.0), (0.0, 30.0)),
+        np.broadcast_to(hemisphere.dhr(brdf, (10.0, 70.0)), (2, 2, 1)),
+        rtol=1e-5,
+    )

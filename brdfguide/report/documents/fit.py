@@ -22,6 +22,7 @@ from ...physics import seen
 from .data import data_block, read_with_block
 from .digest import with_digest
 from .findings import finding
+from .grain_widths import grain_widths
 from .off_plane import missing_block, price_block
 from .plain import plain
 from .reflectances import reflectances
@@ -277,6 +278,8 @@ def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
                 "at_bound": None,
                 "derived": True,
             }
+    for key, known in grain_widths(fit, measurement).items():
+        out[key] |= known
     out |= reflectances(fit, measurement)
     for warning in fit.warnings:
         if warning.effect is Effect.BOUNDS:
