@@ -15,7 +15,7 @@ from brdfguide.fitting.layout import Layout
 from brdfguide.fitting.next_measurement import turns_wanted
 from brdfguide.fitting.objective import Misfit, metric
 from brdfguide.models.candidates import Grained, with_grain
-from brdfguide.report.documents.grain_widths import grain_widths
+from brdfguide.report.documents.errors_of_grain import errors_of_grain
 
 from ..data.test_rotation import scans
 
@@ -160,7 +160,7 @@ def test_the_ratio_has_an_interval_in_which_both_widths_err_together(law):
     noisy = brdf * (1 + 0.01 * np.random.default_rng(97).normal(size=brdf.shape))
     measurement = Measurement(clean, np.where(brdf > 1e-6 * brdf.max(), noisy, np.nan))
     found = fitting.fit(free(law), measurement)
-    known = grain_widths(found, measurement)
+    known = errors_of_grain(found, measurement)
     if law == "ggx-aniso":
         low, high = known["ggx-aniso.ratio"]["interval"]
         alone = np.hypot(*(found.stderr[f"{law}.{name}"] / found.values[f"{law}.{name}"] for name in values))

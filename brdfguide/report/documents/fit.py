@@ -21,8 +21,8 @@ from ...flags import Effect
 from ...physics import seen
 from .data import data_block, read_with_block
 from .digest import with_digest
+from .errors_of_grain import errors_of_grain
 from .findings import finding
-from .grain_widths import grain_widths
 from .off_plane import missing_block, price_block
 from .plain import plain
 from .reflectances import reflectances
@@ -278,7 +278,7 @@ def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
                 "at_bound": None,
                 "derived": True,
             }
-    for key, known in grain_widths(fit, measurement).items():
+    for key, known in errors_of_grain(fit, measurement).items():
         out[key] |= known
     out |= reflectances(fit, measurement)
     for warning in fit.warnings:

@@ -14,7 +14,7 @@ ENOUGH = 2_000  # directions that tell how both widths err together
 WIDE = 2.0  # standard errors of its logarithm from a value to either end of its interval
 
 
-def grain_widths(fit: Fit, measurement: Measurement) -> dict[str, dict]:
+def errors_of_grain(fit: Fit, measurement: Measurement) -> dict[str, dict]:
     """Standard error and 95 % interval of each number that follows from the fitted widths of a grain, by its key. Both
     widths err together; a ratio ends at 1."""
     numbers = {
