@@ -69,12 +69,18 @@ class AllAround:
         light, camera = (np.broadcast_to(each, (*along.shape, 3)).reshape(-1, 3)[lit] for each in (light, camera))
         return rows(Geometry.from_vectors(light, camera)), light[:, 2] * camera[:, 2], lit
 
+    @property
+    def asked(self) -> Geometry:
+        """The directions in which the law is asked."""
+        return self.tabulated[0]
+
     @cached_property
     def places(self) -> tuple[np.ndarray, np.ndarray]:
         """Of each pixel the node below its angle of view, and how far it is on the way to the next."""
         theta = np.arctan2(np.hypot(self.to_camera[:, 0], self.to_camera[:, 1]), self.to_camera[:, 2])
-        at = np.interp(theta, self.nodes, np.arange(NODES))
-        low = np.minimum(at.astype(int), NODES - 2)
+        count = len(self.nodes)
+        at = np.interp(theta, self.nodes, np.arange(count))
+        low = np.minimum(at.astype(int), count - 2)
         return low, at - low
 
     @cached_property

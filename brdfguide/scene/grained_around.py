@@ -15,16 +15,28 @@ import numpy as np
 
 from ..numerics import sphere
 from ..physics.geometry import Geometry, rows
-from .all_around import BLOCK, NODES, AllAround, half_vectors
+from .all_around import BLOCK, AllAround, half_vectors
 
-RINGS, SPOKES = 24, 48  # of half vectors
-FEWER_RINGS, FEWER_SPOKES = 16, 28  # while shapes are searched
-AZIMUTHS = 16  # of the view, over a whole turn
+RINGS, SPOKES = 24, 36  # of half vectors
+FEWER_RINGS, FEWER_SPOKES = 14, 20  # while shapes are searched
+AZIMUTHS = 12  # of the view, over a whole turn
+ANGLES = 14  # of it from the normal
+ASKED = 32  # one direction of so many stands for what a law costs
 
 
 @dataclass(frozen=True, eq=False)
 class GrainedAround(AllAround):
     """The same quadrature with a table over the azimuth of the view as well; azimuths are those of the sample."""
+
+    @cached_property
+    def nodes(self) -> np.ndarray:
+        """Angles of view [rad], closer together toward grazing."""
+        return np.radians(89.5 * np.sin(np.linspace(0, pi / 2, ANGLES)))
+
+    @property
+    def asked(self) -> Geometry:
+        """Some of the directions in which the law is asked, for its cost."""
+        return self.tabulated[0][::ASKED]
 
     @cached_property
     def half_vectors(self) -> tuple[np.ndarray, np.ndarray]:
@@ -56,7 +68,7 @@ class GrainedAround(AllAround):
         """Radiance from each half vector's light times 4 (h·r) dωh / cos θr, (pixels, points)."""
         half, area = self.half_vectors
         low, share = self.places
-        cos_r = np.cos(np.interp(low + share, np.arange(NODES), self.nodes))
+        cos_r = np.cos(np.interp(low + share, np.arange(ANGLES), self.nodes))
         found = np.empty((len(self.to_camera), len(half)), np.float32)
         for at in range(0, len(found), BLOCK):
             block = slice(at, at + BLOCK)
@@ -75,9 +87,9 @@ class GrainedAround(AllAround):
         geom, cosines, place = self.tabulated
         values = brdf(geom) * cosines[:, None]
         points = len(self.half_vectors[0])
-        table = np.zeros((AZIMUTHS * NODES * points, values.shape[1]), np.float32)
+        table = np.zeros((AZIMUTHS * ANGLES * points, values.shape[1]), np.float32)
         table[place] = values
-        table = table.reshape(AZIMUTHS, NODES, points, -1)
+        table = table.reshape(AZIMUTHS, ANGLES, points, -1)
         (low, share), (turn, between) = self.places, self.turned
         found = np.zeros((len(low), table.shape[3]))
         for azimuth, node in sorted({*zip(turn.tolist(), low.tolist(), strict=True)}):

@@ -97,7 +97,7 @@ class Quadrature:
     def representative(self) -> Geometry:
         """Directions (rows, 1) in which the law is asked: to the lamps, or all around where none is seen."""
         geom = self.lit[0]
-        return geom if len(geom) or self.around is None else self.around.tabulated[0]
+        return geom if len(geom) or self.around is None else self.around.asked
 
     def radiance(self, brdf) -> np.ndarray:
         """Relative radiance (pixels, channels) of the finite part of a law, `brdf(geom)` [1/sr]."""
@@ -147,7 +147,7 @@ class Quadrature:
         """Smallest and largest angle [deg] of those a law is written in; of the view alone where no light reaches."""
         geom = self.centres[self.centres.lit]
         if not len(geom):
-            theta_r = self.centres.theta_r_deg
+            theta_r = np.degrees(np.arctan2(np.hypot(self.to_camera[:, 0], self.to_camera[:, 1]), self.to_camera[:, 2]))
             return {"theta_r_deg": (float(theta_r.min()), float(theta_r.max()))}
         angles = {
             "theta_i_deg": geom.theta_i_deg,

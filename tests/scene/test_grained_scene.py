@@ -11,6 +11,7 @@ from brdfguide.physics.geometry import Geometry, rows
 from brdfguide.scene import radiance, scene
 from brdfguide.scene.difference import Picture, lobe_width
 from brdfguide.scene.features import Ablation, Feature, Features
+from brdfguide.scene.prune import prune
 
 ROUND_VIEW = "camera: {theta_deg: [20, 70], phi_deg: [0, 360]}"
 
@@ -108,3 +109,9 @@ def test_bounds_of_a_turn_ascend():
     with pytest.raises(InputError, match="'turn_deg' runs from 90 to 10; the smaller comes first"):
         scene.parse_scene("turn_deg: [90, 10]")
     assert "turned 0..180° in its plane" in scene.parse_scene("turn_deg: [0, 180]").describe()
+
+
+def test_surroundings_alone_are_light_enough_to_leave_parts_out():
+    alone = scene.parse_scene("shape: sphere\nsurroundings: uniform")
+    found = prune(Surface.named("lambertian+ggx", {}), alone, timing=False)
+    assert set(found.box_deg) == {"theta_r_deg"} and found.fresh.within(found.scene.tolerance)
