@@ -20,6 +20,7 @@ from .exporter import ColouredSurface, Statement, glint, number, rgb_numbers, st
 
 FAINT = 1e-2  # of the mirror's brightest: what is darker is not seen beside it
 LEAST_BODY = 0.05  # of the paths, so that a dark body is still sampled
+MOST_BODY = 0.95  # of them, so that what lies over a white body is sampled, too
 
 
 def tree(surface: ColouredSurface, geom: Geometry | None, target: str):
@@ -38,7 +39,7 @@ def tree(surface: ColouredSurface, geom: Geometry | None, target: str):
     values = choice.values
     bright = float(np.max(values["albedo"])) if "albedo" in values else 0.0
     lobe = bool({"alpha", "alpha_x"} & values.keys())
-    body_share = max(bright, LEAST_BODY) if bright > 0 else 0.0
+    body_share = min(max(bright, LEAST_BODY), MOST_BODY) if bright > 0 else 0.0
     if not lobe and mirror is None:
         body_share = 1.0
     rest = (1 - body_share) / ((mirror is not None) + lobe or 1)
@@ -110,14 +111,20 @@ def _rgb(values, low, high, what) -> dict | float:
     values = rgb_numbers(values, low, high, what)
     if values[0] == values[1] == values[2]:
         return values[0]
-    if max(values) <= 1 or what in ("eta", "k"):
+    if what in ("eta", "k"):
+        return {"type": "rgb", "value": values}
+    return _colour(values)
+
+
+def _colour(values: list[float]) -> dict:
+    if max(values) <= 1:
         return {"type": "rgb", "value": values}
     return {"type": "srgb", "color": values, "unbounded": True}
 
 
 def _diffuse(albedo, share) -> dict:
-    reflectance = rgb_numbers(np.minimum(np.asarray(albedo) / share, 1.0), 0.0, 1.0, "reflectance")
-    return {"type": "diffuse", "reflectance": {"type": "rgb", "value": reflectance}}
+    reflectance = rgb_numbers(np.asarray(albedo) / share, 0.0, 1.001 / MOST_BODY, "reflectance")
+    return {"type": "diffuse", "reflectance": _colour(reflectance)}
 
 
 def _index(of_term) -> dict:

@@ -12,7 +12,7 @@ from brdfguide.exporters._directions import judged_over, rms_ln
 from brdfguide.exporters.exporter import Refused
 from brdfguide.exporters.tables.blurred import blurred
 
-from .conftest import EVERY_LAW, EXAMPLES, NAMES, directions, vectors
+from .conftest import EVERY_LAW, EXAMPLES, NAMES, ColouredSurface, directions, models, vectors
 
 mitsuba = pytest.importorskip("mitsuba", reason="pip install mitsuba: the reader of these exports")
 pytestmark = [pytest.mark.validate, pytest.mark.filterwarnings("ignore")]
@@ -78,6 +78,21 @@ def test_stated_residual_is_what_mitsuba_shows(name, of):
             assert shown < 1.001 * made.statement.rms_ln, surface.name
         else:
             assert shown == pytest.approx(made.statement.rms_ln, rel=1e-3, abs=SINGLE), surface.name
+
+
+def test_a_mirror_over_a_white_body_is_written_and_sampled():
+    """Found by the fuzz: the share that a body of albedo 1 left to the mirror was nought, and it was divided by it."""
+    white = ColouredSurface(
+        models.get("lambertian+mirror"), {"lambertian.albedo": 1.0}, ("brdf",), np.array([0.55]), "white"
+    )
+    bsdf = mitsuba.load_string(exporters.export("mitsuba", white).content)
+    np.testing.assert_allclose(evaluated(bsdf, directions(50)), 1 / np.pi, rtol=1e-4)
+    si = mitsuba.SurfaceInteraction3f()
+    si.wi, si.wavelengths = [0.6, 0, 0.8], []
+    rng = np.random.default_rng(2)
+    drawn = [bsdf.sample(mitsuba.BSDFContext(), si, u, [v, w])[0] for u, v, w in rng.uniform(size=(400, 3))]
+    mirrored = [bool(each.sampled_type & +mitsuba.BSDFFlags.DeltaReflection) for each in drawn]
+    assert 5 < sum(mirrored) < 60  # 20 are expected
 
 
 @pytest.mark.parametrize("name", NAMES)
