@@ -107,6 +107,8 @@ def prepare(measurement: Measurement, weighting: str = "auto") -> Prepared:
     search = Subset(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])
     orders = standard_errors.orderings(settle.measurement)
     blocks = [standard_errors.blocks_of(settle.measurement, orders[0]), *map(standard_errors.even_blocks, orders[1:])]
+    if (scans := standard_errors.whole_scans(settle.measurement)) is not None:
+        blocks.append(scans)
     return Prepared(
         measurement,
         rows,

@@ -9,6 +9,7 @@ from brdfguide.data.measurement import Measurement
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting import grain_walk
 from brdfguide.fitting.compare import compare
+from brdfguide.fitting.diagnostics import standard_errors
 from brdfguide.fitting.fit import FitOptions
 from brdfguide.fitting.job import Job, case_of
 from brdfguide.fitting.layout import Layout
@@ -168,3 +169,16 @@ def test_the_ratio_has_an_interval_in_which_both_widths_err_together(law):
         assert known["ggx-aniso.alpha"]["stderr"] > 0
     else:
         assert found.stderr["he-torrance-aniso.ratio"] > 0 and "he-torrance-aniso.ratio" not in known
+
+
+def test_scans_under_other_turns_err_apart(monkeypatch):
+    """Each is mounted anew: its gain turns the axis, and many directions of one scan say no more of that than one."""
+    clean = scans("ggx-aniso", [0.0, 45, 90, 135], seed=98, alpha_x=0.2, alpha_y=0.08, axis=0.4)
+    scan = standard_errors.whole_scans(clean)
+    assert standard_errors.whole_scans(scans("ggx", [0.0], alpha=0.2)) is None
+    assert len(np.unique(scan)) == 16
+    gains = np.exp(0.03 * np.random.default_rng(99).normal(size=16))
+    measurement = Measurement(clean.geom, clean.brdf * gains[scan][:, None])
+    together = fitting.fit(free("ggx-aniso"), measurement).stderr["ggx-aniso.axis"]
+    monkeypatch.setattr(standard_errors, "whole_scans", lambda measurement: None)
+    assert together > 1.5 * fitting.fit(free("ggx-aniso"), measurement).stderr["ggx-aniso.axis"]

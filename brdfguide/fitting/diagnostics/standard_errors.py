@@ -62,6 +62,16 @@ def blocks_of(measurement: Measurement, order) -> np.ndarray:
     return blocks
 
 
+def whole_scans(measurement: Measurement) -> np.ndarray | None:
+    """A number for each row, that of its turn of the sample and its incidence: a scan under another turn is mounted
+    anew, and its gain is its own. None where the sample was not turned, and of scattered incidence."""
+    turns, angles = turn_of_each(measurement.geom), np.round(measurement.geom.theta_i_deg[:, 0], 1)
+    incidences, place = np.unique(angles, return_inverse=True)
+    if turns is None or len(incidences) > 64:
+        return None
+    return turns * len(incidences) + place
+
+
 def even_blocks(order) -> np.ndarray:
     """A number for each row: the order cut into 32 to 256 pieces of equal length."""
     blocks = np.empty(len(order), int)
