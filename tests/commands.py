@@ -34,7 +34,10 @@ STANDS_FOR = {  # a word in capitals, or what a text would fill in -> one that i
     "FOLDER": "made",
     "CODE": "discrepancy",
     "RULE": "usual_dielectric_index",
-    "NAME": "ward",
+    "models NAME": "models ward",
+    "materials NAME": "materials porcelain",
+    "preview NAME": "preview porcelain",
+    "schema NAME": "schema fit",
     "SURFACE": "lambertian",
 }
 ALONE = ("albedo", "examples", "export", "materials", "models", "schema")  # commands that answer without a word more
@@ -134,7 +137,7 @@ COPIED = {  # a file of a reader's own -> the example that stands for it
     "data.csv": "rough_plastic.csv",
     "measured.csv": "white_paper.csv",
     "my_plastic.csv": "rough_plastic.csv",
-    "paint.csv": "metallic_paint.csv",
+    "panel.csv": "metallic_paint.csv",
     "scene.yaml": "scenes/gallery_light.yaml",
 }
 GRAINED = "brdfguide evaluate ggx-aniso alpha_x=0.4 --theta-i 45 --theta-r -80:80:5 axis="

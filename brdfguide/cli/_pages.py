@@ -80,7 +80,9 @@ def rules_page() -> str:
     """Every guideline with its section."""
     entries = [(rule.__name__, rule_entry(rule)) for rule in rules()]
     rows = [(f"`{name}`", each["section"], " ".join(each["meaning"].split())) for name, each in entries]
-    about = "In this order; none overrides what was observed. `brdfguide recommend --explain` says which spoke."
+    about = (
+        "In this order; none overrides what was observed. `brdfguide recommend porcelain --explain` says which spoke."
+    )
     return _page("Rules", about, _table(("rule", "section of the guide", "what it says"), rows))
 
 
@@ -117,7 +119,7 @@ def materials_page() -> str:
         rows.append(("".join(_picture(MATERIALS, name, name)), f"`{name}`", given.get("about", ""), said))
     about = (
         "`brdfguide materials NAME` shows one with the source of every number. A ball is drawn with the model that is "
-        "recommended first, under the sky of `brdfguide preview --env sky`; where only the finish is told and no "
+        "recommended first, under the sky of `brdfguide preview NAME --env sky`; where only the finish is told and no "
         "colour, the body is black."
     )
     return _page("Materials", about, _table(("", "material", "what it is", "what is said of it"), rows))
