@@ -75,6 +75,7 @@ COMMANDS = (
     "materials porcelain --json",
     "materials gold-leaf --json",
     "numbers porcelain --json",
+    "numbers car-paint --json",
     "numbers lambertian+ggx --json",
     "check lambertian ward --json",
     f"check --fit {{fit}} --certify {PAPER} --json",
@@ -134,6 +135,7 @@ MEANINGS = {
     "recommended": "name of the model to use",
     "recommended_fit": "the row of that model, whole",
     "trustworthy": "false: exit status 1, see no_answer",
+    "means": "label -> what the number is in every program, whatever it is called there",
     "no_answer": "why no model should be trusted; null where one may be",
     "because": "why this one",
     "ranking": "every candidate, the recommended one first, the others by their error",
@@ -218,6 +220,7 @@ DEFINED = {  # objects that stand in several places, by the keys that only they 
     "fit": {"schema", "ranking", "recommended_fit", "data"},
     "finding": {"code", "text"},
     "row": {"candidate", "rms_ln", "parameters", "flags"},
+    "typed": {"program", "shader", "hex", "means"},
 }
 
 

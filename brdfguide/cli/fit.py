@@ -12,7 +12,7 @@ from ..errors import InputError, NoAnswer
 from ._data import AnywayOption, ApertureOption, Reading, TurnedOption
 from ._fitting import Fitting, expressions
 from ._many import ONE, PANEL, Many
-from ._numbers import NumbersOption
+from ._numbers import NumbersOption, shows_numbers
 from ._options import FullOption, Output, command_line, is_pattern, output_file, progress
 from ._report import ANGLE, Pictures, checked_axis, print_ranking, show_ranking
 from ._request import refuse
@@ -87,7 +87,7 @@ class FitRequest:
     ] = None
     many: Many
     as_: AsOption = None
-    numbers: NumbersOption = False
+    numbers: NumbersOption = None
     exporting: Exporting
     output: Output
     full: FullOption = False
@@ -108,8 +108,8 @@ class FitRequest:
             timing=self.output.timing,
         )
 
-    def beyond(self):
-        """What is asked beyond the ranking, as `face.beyond.Beyond`."""
+    def beyond(self, *, shown: bool):
+        """What is asked beyond the ranking, as `face.beyond.Beyond`; `shown`: of one file, to people."""
         from ..face.beyond import Beyond
 
         return Beyond(
@@ -119,7 +119,8 @@ class FitRequest:
             baselines=self.baselines,
             basis_from=self.basis_from,
             shader=self.as_,
-            numbers=self.numbers or self.pictures.report is not None,
+            numbers=shows_numbers(self.numbers, self.pictures.report is not None, not shown or self.output.json),
+            asked_for_numbers=bool(self.numbers),
         )
 
 
@@ -189,7 +190,9 @@ def fit_many(request: FitRequest, words: list[str]) -> int:
         target, path = parse_spec(spec)
         most = request.exporting.max_export_error
         products.append(patterned(EXPORT, path, several, target=target, most=most))
-    work = FitWork(job=request.job(), beyond=request.beyond(), products=tuple(products), command=command_line())
+    work = FitWork(
+        job=request.job(), beyond=request.beyond(shown=False), products=tuple(products), command=command_line()
+    )
     labels = many.labels(context, words)
     tasks = tasks_of_groups(labels, request.group, work) if request.group else tasks_of(labels, work)
     what = "groups" if request.group else "files"
@@ -207,7 +210,7 @@ def fit_one(file: Path, request: FitRequest) -> None:
     from ..report.documents.values import residuals
     from ..report.text.values import residuals_csv
 
-    job, output, beyond = request.job(), request.output, request.beyond()
+    job, output, beyond = request.job(), request.output, request.beyond(shown=True)
     found = case(request.data if request.turned else file, job)
     with progress(3 * len(found.candidates), output.quiet) as tell:
         answer = answered(found, job, tell)
@@ -248,7 +251,7 @@ def beyond_texts(asked, document: dict, quiet: bool) -> Iterator[str]:
         from ..report.text.as_shader import as_shader_text
 
         yield as_shader_text(document["as"])
-    if asked.numbers:
+    if "numbers" in document:
         from ..report.text.numbers import card_text
 
         yield card_text(document["numbers"])

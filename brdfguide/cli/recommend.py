@@ -43,7 +43,7 @@ class RecommendRequest:
     explain: Annotated[bool, Option("--explain", help="Every rule, also those that were silent.")] = False
     anyway: Annotated[bool, Option("--anyway", help="Answer also outside the guide's domain.")] = False
     as_: AsOption = None
-    numbers: NumbersOption = False
+    numbers: NumbersOption = None
     exporting: Exporting
     many: Many
     output: Output

@@ -12,15 +12,17 @@ import numpy as np
 
 from ..models.model import Model
 from ..physics.geometry import Geometry
-from ._directions import judged_over, rms_ln
-from ._refit import TargetModel, refit
+from ._directions import judged_over
+from ._refit import Goal, TargetModel, refit, settled_over_many
 from ._shown import Shown, beside_mirror, seen_of
 from .exporter import EXACT, ColouredSurface, Statement, number, numbers, status_of
 
 FACETS = {"alpha", "n", "k", "scale"}  # parameters of a law whose numbers the targets' own facets may take over
+GRAINED = FACETS - {"alpha"} | {"alpha_x", "alpha_y", "axis"}
 GOOD = 0.1  # rms ln within which a target is taken to hold a surface
 ONE_LOBE = "lobes become one"
 SIMPLER = 1.02  # a law with fewer parts is taken if it is no worse than this
+NEAR_BEST = 1.3  # a law that is worse than this many times the best over a few directions is not settled over all
 
 
 @dataclass(frozen=True)
@@ -78,27 +80,49 @@ def choose(
 ) -> Choice:
     """The best of `targets`, simplest first, with parameters rounded as they will be written."""
     geom, wanted, over = judged_over(surface, geom, spectral)
-    return replace(best_of(targets, geom, wanted, known_values(surface, spectral), over), spectral=spectral)
+    goal = Goal(geom, wanted)
+    return replace(best_of(targets, goal, known_values(surface, spectral), over), spectral=spectral)
 
 
-def best_of(
-    targets: Mapping[str, TargetModel], geom: Geometry, wanted: np.ndarray, known: Mapping | None, over: str
-) -> Choice:
+def best_of(targets: Mapping[str, TargetModel], goal: Goal, known: Mapping | None, over: str) -> Choice:
     """The same for directions and wanted values that are there already."""
-    directions = int(np.isfinite(wanted).any(axis=1).sum())
+    directions, colours = int(goal.counted.any(axis=1).sum()), goal.wanted.shape[1]
     found: list[Choice] = []
-    for name, target in targets.items():
-        values = _as_known(target, known, geom, wanted) if target.parameters else {}
-        values = refit(target, wanted, geom).values if values is None else values
-        values = _written(target, values, wanted.shape[1])
-        rms = rms_ln(target.at(geom, values), wanted)
+    for name, (target, values) in _worth_settling(targets, goal, known).items():
+        written = _written(target, values, colours)
+        rms = goal.error(target.at(goal.geom, written))
         if not found or rms * SIMPLER + 1e-9 < found[-1].rms_ln:
-            brdf = partial(target.at, values=values)
-            found.append(Choice(name, {**target.fixed, **values}, rms, directions, over, brdf))
+            brdf = partial(target.at, values=written)
+            found.append(Choice(name, {**target.fixed, **written}, rms, directions, over, brdf))
     return found[-1]
 
 
-def _as_known(target: TargetModel, known: Mapping | None, geom, wanted):
+def _worth_settling(
+    targets: Mapping[str, TargetModel], goal: Goal, known: Mapping | None
+) -> dict[str, tuple[TargetModel, Mapping]]:
+    """Laws with the values that come nearest, in order: those that hold a model's own values, and those that come near
+    the best of them over a few directions."""
+    exact, tried = {}, {}
+    for name, target in targets.items():
+        own = _as_known(target, known, goal)
+        if not target.parameters:
+            tried[name] = 0.0, {}
+        elif own is None:
+            tried[name] = refit(target, goal)
+        else:
+            exact[name] = own
+            break  # none is better
+    least = min((error for error, _ in tried.values()), default=0.0)
+    found = {}
+    for name, target in targets.items():
+        if name in exact:
+            found[name] = target, exact[name]
+        elif name in tried and tried[name][0] <= NEAR_BEST * least and not exact:
+            found[name] = target, settled_over_many(target, tried[name][1], goal)
+    return found
+
+
+def _as_known(target: TargetModel, known: Mapping | None, goal: Goal) -> dict | None:
     """The model's own values, if the law takes exactly these and then equals the model."""
     if known is None:
         return None
@@ -108,7 +132,7 @@ def _as_known(target: TargetModel, known: Mapping | None, geom, wanted):
         for p, value in zip(target.parameters, values.values(), strict=True)
     ):
         return None
-    return values if rms_ln(target.at(geom, values), wanted) <= EXACT / 10 else None
+    return values if goal.error(target.at(goal.geom, values)) <= EXACT / 10 else None
 
 
 def _written(target: TargetModel, values: Mapping, colours: int) -> dict:
@@ -125,10 +149,11 @@ def _written(target: TargetModel, values: Mapping, colours: int) -> dict:
 
 
 def known_values(surface: ColouredSurface, spectral: bool = False) -> dict | None:
-    """albedo, scale, n, k by colour and alpha, of a Lambertian body and at most one facet lobe; else None."""
+    """albedo, scale, n, k by colour and alpha, or the wider and the narrower of two, of a Lambertian body and at most
+    one facet lobe; else None."""
     finite = [term for term in surface.model.terms if not term.model.is_mirror]
     bodies = [term for term in finite if term.model.name == "lambertian"]
-    lobes = [term for term in finite if term.model.defaults().keys() == FACETS]
+    lobes = [term for term in finite if term.model.defaults().keys() in (FACETS, GRAINED)]
     if len(lobes) > 1 or len(bodies) > 1 or len(lobes) + len(bodies) < len(finite):
         return None
     by_colour = (
@@ -141,7 +166,10 @@ def known_values(surface: ColouredSurface, spectral: bool = False) -> dict | Non
         values["scale"] = by_colour(of_lobe["scale"])
         for name in ("n", "k"):
             values[name] = by_colour(of_lobe[name]) if spectral else surface.nonlinear(of_lobe[name])
-        values["alpha"] = np.ravel(of_lobe["alpha"])[0] if np.ptp(of_lobe["alpha"]) == 0 else None
+        widths = [np.ravel(of_lobe[name]) for name in ("alpha", "alpha_x", "alpha_y") if name in of_lobe]
+        if all(np.ptp(each) == 0 for each in widths):
+            values["alpha"] = values["alpha_y"] = float(min(each[0] for each in widths))
+            values["alpha_x"] = float(max(each[0] for each in widths))
         values["amount"] = 1.0 if not bodies and np.all(values["scale"] == 1) else None
     return values
 
@@ -161,11 +189,12 @@ def fresnel_index(surface: ColouredSurface, spectral: bool = False) -> tuple[np.
 
 def in_order_for(surfaces: Sequence[ColouredSurface], lobe: str = "") -> list[ColouredSurface]:
     """Of candidates for one surface, best first, those that keep the mirror of a coat, where the first has one over
-    something; those whose lobes are the target's own, where it has one alone, first."""
+    something; those alone whose lobes are the target's own, where it has one alone and there are such."""
     terms = [term.model for term in surfaces[0].model.terms]
     coated = len(terms) > 1 and any(each.is_mirror or each.is_coat for each in terms)
     kept = [each for each in surfaces if each.has_mirror] if coated else []
-    return sorted(kept or surfaces, key=lambda each: bool(lobe) and not _has_lobe_of(each, lobe))
+    own = [each for each in kept or surfaces if _has_lobe_of(each, lobe)] if lobe else []
+    return own or list(kept or surfaces)
 
 
 def _has_lobe_of(surface: ColouredSurface, lobe: str) -> bool:

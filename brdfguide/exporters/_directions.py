@@ -5,6 +5,8 @@ seven azimuths, and steps about each mirror direction of 0.25 to 16 degrees and 
 the lobe has at 30 degrees, so that a lobe of a hundredth of a degree is seen.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from ..errors import NoAnswer
@@ -56,8 +58,18 @@ STANDARD_WORDS = "directions with theta_i 0..80 deg"
 
 def judged_over(surface, geom: Geometry | None, spectral: bool = False) -> tuple[Geometry, np.ndarray, str]:
     """Directions, linear sRGB or channels there (samples, colours), NaN where it does not count, and words."""
+    if geom is None and not spectral:
+        return _over_the_standard(surface)
     words = STANDARD_WORDS if geom is None else "of the data's directions"
-    geom = standard_directions(surface) if geom is None else rows(geom)
+    return _judged(surface, standard_directions(surface) if geom is None else rows(geom), spectral, words)
+
+
+@lru_cache(maxsize=4)  # of the few candidates for one surface, which every shader is asked for
+def _over_the_standard(surface) -> tuple[Geometry, np.ndarray, str]:
+    return _judged(surface, standard_directions(surface), False, STANDARD_WORDS)
+
+
+def _judged(surface, geom: Geometry, spectral: bool, words: str) -> tuple[Geometry, np.ndarray, str]:
     rgb = surface.spectral(geom) if spectral else surface.rgb(geom)
     counted = geom.lit & (rgb > 0)
     incidence = np.round(geom.theta_i_deg[:, 0], 1)

@@ -1,7 +1,5 @@
 """MaterialX 1.39 documents: a shader node with inputs, and the surfacematerial that holds it."""
 
-from xml.sax.saxutils import quoteattr
-
 import numpy as np
 
 from ..printable import identifier
@@ -48,9 +46,8 @@ def turned_tangent(name: str, axis: float) -> list[str]:
 
 
 def material(name: str) -> list[str]:
-    quoted = quoteattr(name)
     return [
-        f'  <surfacematerial name={quoted} type="material">',
+        f'  <surfacematerial name="{name}" type="material">',
         f'    <input name="surfaceshader" type="surfaceshader" nodename="{name}_shader"/>',
         "  </surfacematerial>",
     ]

@@ -16,15 +16,17 @@ from ..models.model import Model, Parameter
 from ..physics import grain, microfacet
 from ..physics.geometry import Geometry, rows
 from . import _grained
-from ._choice import GOOD, ONE_LOBE, Choice, best_of, choose, has_body, what_is_lost
+from ._choice import GOOD, ONE_LOBE, Choice, best_of, choose, fresnel_index, has_body, what_is_lost
 from ._directions import judged_over, rms_ln
-from ._refit import TargetModel
+from ._mirrored import BesideMirror, mirror_at, stacked
+from ._refit import Goal, TargetModel
 from ._smooth import MIRROR, is_smooth
 from .exporter import ColouredSurface, Statement, glint
 
 METAL_STARTS = (0.1, 0.5, 0.9)
 ALIKE = 0.2  # rms ln within which a polished base is taken before a coat over a base
 HIGH_DEG = 60.0  # beyond, laws and shaders part over what lies under a surface
+CLEAREST = 2.5  # index of a dielectric at most (diamond has 2.42)
 FAINT = 1e-2  # of a mirror's highest value: below it is not seen beside it
 # why a shader's best numbers are far off a body, a lobe under a coat, what lies under a coat that bends light
 LACKS = {
@@ -56,6 +58,7 @@ class Node:
     # with both
     widths: Callable[..., tuple] | None = None
     coat_mirror: float = 0.0  # what `coat_roughness` is of a coat that is a mirror
+    only: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # the values of a number that a program can set
     lacks: Mapping[str, str] = field(default_factory=lambda: LACKS)  # what keeps it from a body, a lobe, a coat's base
 
     def target(self, free: tuple[str, ...], **fixed) -> TargetModel:
@@ -63,7 +66,7 @@ class Node:
         held = {**self.law.defaults(), **fixed}
         parameters = tuple(self._parameter(name, fixed) for name in free)
         held = {name: value for name, value in held.items() if name not in free}
-        return TargetModel(parameters, lambda geom, **values: self.law(geom, **held, **values), held)
+        return TargetModel(parameters, partial(self.law, **held), held, broadcasts=True)
 
     def tells(self, name: str, value) -> bool:
         """Whether a number is worth writing: one of the four that make a surface, or one that is not its default."""
@@ -82,15 +85,18 @@ class Node:
             return replace(p, low=1e-3, log=True, starts=METAL_STARTS)
         return replace(p, linear=True)
 
-    def ordinary(self, body: bool) -> dict[str, TargetModel]:
-        """Matt or with a lobe over a body; metal or bare dielectric without one."""
+    def ordinary(self, body: bool, dielectric_first: bool = False) -> dict[str, TargetModel]:
+        """Matt or with a lobe over a body; metal or bare dielectric without one, which often look alike."""
         metal = {self.metalness: 1.0}
         edge = (self.edge,) if self.edge else ()
         dielectric = ("base_color", self.roughness, self.index, *self._free_weight())
         if body:
             return {"matt": self.target(("base_color",), **self.matt), "dielectric": self.target(dielectric)}
-        targets = {"metal": self.target(("base_color", *edge, self.roughness), **metal)}
-        return targets | {"dielectric": self.target(dielectric[1:], base_color=0.0)}
+        targets = {
+            "metal": self.target(("base_color", *edge, self.roughness), **metal),
+            "dielectric": self.target(dielectric[1:], base_color=0.0),
+        }
+        return dict(reversed(targets.items())) if dielectric_first else targets
 
     def grained(self, body: bool, axis: float) -> dict[str, TargetModel]:
         """The same with a streak along an azimuth [rad]; round where the node has none."""
@@ -154,8 +160,9 @@ class Node:
         """A rough coat over a body, or over flakes and metals."""
         held, coat = self._coat(n)
         if body:
-            free = ("base_color", self.coat_roughness, *coat)
-            return {"matt under a rough coat": self.target(free, **self.matt, **held)}
+            matt = self.target(("base_color", self.coat_roughness, *coat), **self.matt, **held)
+            lobe = self.target(("base_color", self.roughness, self.index, self.coat_roughness, *coat), **held)
+            return {"matt under a rough coat": matt, "dielectric under a rough coat": lobe}
         free = ("base_color", self.roughness, self.coat_roughness, *coat)
         return {"metal under a rough coat": self.target(free, **{self.metalness: 1.0}, **held)}
 
@@ -179,6 +186,18 @@ def _coats_index(surface: ColouredSurface) -> float | None:
     return None
 
 
+def _is_coated(law: Model, values: Mapping) -> bool:
+    """Whether a law is a coat, or a shader whose own coat has some weight."""
+    coat = law.settings.get("coat")
+    return law.is_coat or coat is not None and any(np.any(values[name]) for name in coat.fixed)
+
+
+def _is_dielectric(surface: ColouredSurface) -> bool:
+    """Whether the surface's own index is that of something clear."""
+    n, k = fresnel_index(surface) or (np.inf, 0.0)
+    return bool(np.max(n) <= CLEAREST and not np.any(k))
+
+
 def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> Choice:
     """The best of the node's settings for a surface, with its numbers rounded as they will be written."""
     own = _own_values(node, surface)
@@ -199,9 +218,9 @@ def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> 
     axis = _grained.axis_of(surface)
     if axis is not None:
         return choose(surface, geom, node.grained(body, axis))
-    rough = node.coat and any(term.model.is_coat for term in surface.model.terms)
+    rough = node.coat and any(_is_coated(term.model, surface.values_of(term)) for term in surface.model.terms)
     coated = node.under_rough(body, _coats_index(surface)) if rough else {}
-    return choose(surface, geom, node.ordinary(body) | coated)
+    return choose(surface, geom, node.ordinary(body, _is_dielectric(surface)) | coated)
 
 
 def what_it_costs(node: Node, surface: ColouredSurface, choice: Choice) -> tuple[str, ...]:
@@ -252,17 +271,17 @@ def _off_up_to(most_deg: float, surface: ColouredSurface, choice: Choice) -> flo
 
 def _own_values(node: Node, surface: ColouredSurface) -> dict | None:
     """Its values by colour, of a surface of the node's own law; else None."""
-    if [term.model for term in surface.model.terms] != [node.law]:
+    if [term.model.brdf for term in surface.model.terms] != [node.law.brdf]:
         return None
     of_term = surface.values_of(surface.model.terms[0])
     values = {}
     for p in node.law.parameters:
         value = surface.nonlinear(of_term[p.name])
-        if value is None:
+        if value is None or not p.per_channel and np.ptp(value) > 0:
+            return None
+        if np.any(value > p.high) or not np.all(np.isin(value, node.only.get(p.name, value))):
             return None
         values[p.name] = float(value[0]) if np.ptp(value) == 0 else value
-        if not p.per_channel and np.ptp(value) > 0:
-            return None
     return values
 
 
@@ -277,39 +296,27 @@ def _with_mirror(
         finite_geom, finite, over = judged_over(surface, geom)
     else:
         finite_geom, finite, over = mirrored[:0], np.empty((0, 3)), "no finite directions"
-    copies = max(1, round(len(finite_geom) / len(MIRROR)))
-    wanted = np.concatenate((finite, np.repeat(reflected, copies, axis=0)))
-    stacked = {
-        name: replace(target, brdf=partial(_stacked, node.law, target.fixed, finite_geom, mirrored, copies))
-        for name, target in targets.items()
+    both = BesideMirror(finite_geom, mirrored)
+    weights = np.ones(len(both))
+    weights[len(finite) :] = max(1.0, len(finite) / len(MIRROR))
+    goal = Goal(both, np.concatenate((finite, reflected)), weights)
+    beside = {
+        name: replace(target, brdf=partial(stacked, node.law, **target.fixed)) for name, target in targets.items()
     }
-    both = rows(Geometry.from_degrees(np.zeros(len(wanted)), 0.0, np.zeros(len(wanted)), 0.0))
-    words = f"{len(MIRROR)} mirror directions" + (f" and {over}" if len(finite_geom) else "")
-    choice = best_of(stacked, both, wanted, None, words)
-    written = _stacked(node.law, {}, finite_geom, mirrored, copies, both, **choice.values)
-    worst = max(rms_ln(written[: len(finite)], finite), rms_ln(written[len(finite) :], wanted[len(finite) :]))
+    words = f"{len(MIRROR)} mirror directions" + (f" and {over}" if len(finite) else "")
+    choice = best_of(beside, goal, None, words)
+    written = stacked(node.law, both, **{**node.law.defaults(), **choice.values})
+    worst = max(rms_ln(written[: len(finite)], finite), rms_ln(written[len(finite) :], reflected))
     return replace(
         choice,
         rms_ln=worst,
         brdf=partial(_law_at, node.law, choice.values),
-        mirror=partial(_mirror_at, node.law, choice.values),
+        mirror=partial(mirror_at, node.law, choice.values),
     )
 
 
 def _law_at(law: Model, values: Mapping, geom: Geometry) -> np.ndarray:
     return law(geom, **values)
-
-
-def _mirror_at(law: Model, values: Mapping, geom: Geometry) -> np.ndarray:
-    return law.mirror(geom, **values) if law.mirror else np.zeros(geom.shape)
-
-
-def _stacked(law: Model, fixed: Mapping, finite: Geometry, mirrored: Geometry, copies: int, _, **values) -> np.ndarray:
-    """BRDF in the finite directions and, `copies` times each, reflectances of the mirror: (samples, colours)."""
-    values = {**law.defaults(), **fixed, **values}
-    above, shiny = law(finite, **values), np.repeat(_mirror_at(law, values, mirrored), copies, axis=0)
-    colours = max(above.shape[1], shiny.shape[1])
-    return np.concatenate([np.broadcast_to(part, (len(part), colours)) for part in (above, shiny)])
 
 
 def readings(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometry | None) -> tuple[str, ...]:

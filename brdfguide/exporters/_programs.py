@@ -1,25 +1,23 @@
 """Programs whose shaders take typed numbers: the law that each evaluates, and what its fields are called.
 
-Blender's bodies are Standard Surface's in MaterialX and its metals OpenPBR's under a coat that does not darken; its
-widths across and along a grain are roughness² over and times √(1 - 0.9 Anisotropic). A rotation is typed as a share of
-a turn or in radians where a program has a number for it; Unreal, OpenPBR and Mitsuba turn the tangent of the mesh.
+A rotation is typed as a share of a turn or in radians where a program has a number for it; Unreal, OpenPBR and Mitsuba
+turn the tangent of the mesh.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
 from .. import catalog
-from . import _principled, _substance, _unreal
-from ._choice import has_body
+from ..physics.colour import hex_of
+from . import _blender, _principled, _substance, _unreal
+from ._choice import Choice
 from ._nodes import Node
 from .exporter import ColouredSurface
 
 AS_TURNS = 1 / (2 * pi)
-BLENDERS_MOST = 0.9  # of 1 - (alpha along/alpha across)
 
 
 @dataclass(frozen=True)
@@ -43,47 +41,6 @@ def _node(target: str) -> Node:
     return catalog.load("exporters", target).NODE
 
 
-@lru_cache(maxsize=2)
-def _blenders(body: bool) -> Node:
-    node = _node("standard-surface" if body else "openpbr")
-    parameters = []
-    for p in node.law.parameters:
-        if p.name == "coat_darkening":
-            p = replace(p, default=0.0)
-        parameters.append(replace(p, high=BLENDERS_MOST) if p.name == node.grain else p)
-    return replace(node, law=replace(node.law, parameters=tuple(parameters)))
-
-
-def _as_blender_types(values: Mapping) -> dict:
-    """Roughness and Anisotropic of the two widths that the law has by its own numbers."""
-    typed = dict(values)
-    for name in ("specular_anisotropy", "specular_roughness_anisotropy"):
-        if name not in values:
-            continue
-        share = float(np.ravel(values[name])[0])
-        typed[name] = share / BLENDERS_MOST
-        if name == "specular_roughness_anisotropy":  # of OpenPBR, whose roughness is no geometric mean
-            narrower = 2 * (1 - share) / (1 + (1 - share) ** 2)
-            typed["specular_roughness"] = values["specular_roughness"] * narrower**0.25
-    return typed
-
-
-BLENDER_FIELDS = {
-    "base_color": "Base Color",
-    "base_metalness": "Metallic",
-    "metalness": "Metallic",
-    "specular_roughness": "Roughness",
-    "specular_ior": "IOR",
-    "specular_color": "Specular Tint",
-    "specular_anisotropy": "Anisotropic",
-    "specular_roughness_anisotropy": "Anisotropic",
-    "coat_weight": "Coat Weight",
-    "coat": "Coat Weight",
-    "coat_roughness": "Coat Roughness",
-    "coat_ior": "Coat IOR",
-}
-
-
 def _as_named(*names: str, **spelt: str) -> dict[str, str]:
     """Fields that are called as the law's parameters are, and those that are not."""
     return {name: name for name in names} | spelt
@@ -94,12 +51,12 @@ PROGRAMS = (
     Program(
         "Blender",
         "Principled BSDF",
-        lambda surface: _blenders(has_body(surface)),
-        BLENDER_FIELDS,
+        _blender.node_for,
+        _blender.FIELDS,
         "Standard Surface in MaterialX, OpenPBR for metals",
         ("Base Color", "Metallic", "Roughness", "IOR"),
         rotation=("Anisotropic Rotation", AS_TURNS),
-        retyped=_as_blender_types,
+        retyped=_blender.in_blenders_sense,
     ),
     Program(
         "Arnold, Maya, Houdini",
@@ -200,3 +157,37 @@ def node_of(law: str) -> Node | None:
     if law in ("openpbr", "standard-surface", "gltf"):
         return _node(law)
     return {each.law.name: each for each in (_unreal.NODE, _substance.NODE, _principled.NODE)}.get(law)
+
+
+def typed_numbers(
+    program: Program, node: Node, choice: Choice
+) -> tuple[dict[str, float | tuple[float, ...]], dict[str, str]]:
+    """Label -> number or colour, and label -> hex of colours; what keeps the shader's default is left out."""
+    numbers: dict[str, float | tuple[float, ...]] = {}
+    hexes = {}
+    values = program.retyped(choice.values)
+    # a coat's own defaults differ from program to program
+    coat = (node.coat, node.coat_roughness, node.coat_index) if np.any(choice.values[node.coat]) else ()
+    for name, label in program.fields.items():
+        if name not in values:
+            continue
+        value, parameter = np.ravel(values[name]), node.law.parameter(name)
+        if label not in program.always and name not in coat and np.all(value == parameter.default):
+            continue
+        if parameter.per_channel:
+            rgb = np.broadcast_to(value, (3,))
+            numbers[label] = tuple(float(each) for each in rgb)
+            hexes[label] = hex_of(rgb)
+        else:
+            numbers[label] = float(value[0])
+    if program.rotation and np.any(choice.values[node.grain]):
+        label, of_a_radian = program.rotation
+        turned = float(np.remainder(np.sign(of_a_radian) * np.ravel(choice.values["axis"])[0], np.pi))
+        numbers[label] = turned * abs(of_a_radian)
+    return numbers, hexes
+
+
+def as_words(program: Program, node: Node, choice: Choice) -> dict[str, float | tuple[float, ...]]:
+    """The numbers of a shader under the program's labels as they are typed in a command: base_color, ior_level."""
+    numbers, _ = typed_numbers(program, node, choice)
+    return {label.lower().replace(" ", "_"): value for label, value in numbers.items()}

@@ -13,7 +13,7 @@ from ..physics.geometry import Geometry, rows
 from ..physics.shader_optics import schlick
 from . import _target_models
 from ._choice import Choice, best_of
-from ._refit import TargetModel
+from ._refit import Goal, TargetModel
 from ._target_models import COLOUR
 from .exporter import ColouredSurface
 
@@ -57,8 +57,7 @@ def choose_smooth(surface: ColouredSurface, targets) -> Choice:
     }
     choice = best_of(
         named,
-        both,
-        wanted,
+        Goal(both, wanted),
         None,
         f"{len(MIRROR)} mirror directions" + (f" and {len(diffuse)} of the body" if body else ""),
     )

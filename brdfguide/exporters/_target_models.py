@@ -23,7 +23,7 @@ from ..models.ward_gmd import brdf as ward_gmd
 from ..physics.fresnel import fresnel
 from ..physics.geometry import Geometry
 from ..physics.microfacet import beckmann, ggx_shape
-from ..physics.shader_optics import compensation, directional_albedo, schlick
+from ..physics.shader_optics import albedo_terms, compensation, directional_albedo, schlick
 from ._refit import TargetModel
 
 ALPHA = Parameter("alpha", 0.2, 1e-4, 1.0, log=True, starts=(0.01, 0.03, 0.1, 0.2, 0.4, 0.8))
@@ -83,7 +83,7 @@ def mixed() -> TargetModel:
 
 
 def _materialx_lobe(geom, f, alpha):
-    return f * ggx_shape(geom, alpha) * compensation(geom.cos_r, alpha, f)
+    return f * ggx_shape(geom, alpha) * compensation(albedo_terms(geom.cos_r, alpha), f)
 
 
 def conductor_node() -> TargetModel:
@@ -104,7 +104,8 @@ def usd_specular() -> TargetModel:
     def brdf(geom, *, albedo, f0, roughness):
         alpha = np.square(roughness)
         f = schlick(geom.cos_d, f0)
-        e = directional_albedo(geom.cos_r, alpha, f0) * compensation(geom.cos_r, alpha, f)
+        terms = albedo_terms(geom.cos_r, alpha)
+        e = directional_albedo(terms, f0) * compensation(terms, f)
         return (1 - np.mean(e, axis=-1, keepdims=True)) * albedo / pi + _materialx_lobe(geom, f, alpha)
 
     f0 = Parameter("f0", 0.04, 1e-4, 1.0, log=True, per_channel=True, starts=(0.01, 0.04, 0.2, 0.8))
@@ -124,4 +125,4 @@ def radiance(metal: bool) -> TargetModel:
 
     specular = Parameter("specular", 0.05, 0.0, 1.0, starts=(0.01, 0.05, 0.3, 0.9))
     roughness = Parameter("roughness", 0.1, 1e-3, 1.0, log=True, starts=ALPHA.starts)
-    return TargetModel((COLOUR, specular, roughness), brdf)
+    return TargetModel((COLOUR, specular, roughness), brdf, broadcasts=True)

@@ -26,9 +26,11 @@ from ..physics.geometry import Geometry
 from ._choice import GOOD, Choice, in_order_for
 from ._grained import axis_of, tangent_note
 from ._nodes import Node, choose_node, readings, what_it_costs
-from ._programs import PROGRAMS, Program
+from ._programs import PROGRAMS, Program, typed_numbers
 from ._shown import Shown, off_the_measurement
 from .exporter import ColouredSurface, coloured
+
+MEASURED = 20_000  # directions of a measurement, in even steps, over which the error against it is taken
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,9 @@ class Card:
     model: str = ""  # of the candidates, the one that the numbers are of
     notes: tuple[str, ...] = ()  # what the same numbers show where the shader is read in another way
     measured_rms_ln: float | None = None  # the error against a measurement; None where there is none
+    # label -> what the number is in every program: colour, metalness, roughness, index, weight, edge, grain, rotation,
+    # coat, coat_roughness, coat_gloss, coat_index, specularity
+    roles: Mapping[str, str] = field(default_factory=dict)
     # what the program shows in linear sRGB: (geometry) -> (samples, 3) [1/sr]
     shown: Shown | None = field(default=None, compare=False, repr=False)
 
@@ -75,17 +80,25 @@ def cards(
     within GOOD, else the one that it holds best; a coat's mirror is not given up.
 
     Takes  geom, directions to judge over, None: the standard ones; measured, directions and the BRDF [1/sr]
-    (samples, channels) there, if there is a measurement: then each error against it is given besides.
+    (samples, channels) there, if there is a measurement: then each error against it is given besides, over at most
+    MEASURED of them.    Raises NoAnswer for a surface that reflects nothing, or whose channels carry no colour.
     """
     shown = [each if isinstance(each, ColouredSurface) else coloured(each) for each in surfaces]
     chosen = _Chosen(geom)
     tried = in_order_for(shown, "ggx")
     found = [_best(partial(_card, program, chosen), tried) for program in PROGRAMS]
-    found.append(_best(partial(_of_radiance, geom), in_order_for(shown)))
+    found.append(_best(partial(_of_radiance, geom), in_order_for(shown, "beckmann")))
     if measured is None:
         return found
-    matrix = shown[0].colour.matrix
+    matrix, measured = shown[0].colour.matrix, _thinned(*measured)
     return [replace(each, measured_rms_ln=off_the_measurement(each.shown, matrix, *measured)) for each in found]
+
+
+def _thinned(geom: Geometry, measured: np.ndarray) -> tuple[Geometry, np.ndarray]:
+    if len(measured) <= MEASURED:
+        return geom, measured
+    taken = np.linspace(0, len(measured) - 1, MEASURED).round().astype(int)
+    return geom[taken], measured[taken]
 
 
 def _best(make: Callable[[ColouredSurface], Card], surfaces: Sequence[ColouredSurface]) -> Card:
@@ -100,7 +113,7 @@ def _best(make: Callable[[ColouredSurface], Card], surfaces: Sequence[ColouredSu
 def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
     node = program.node(surface)
     choice = chosen.of(node, surface)
-    numbers, hexes = _typed(program, node, choice)
+    numbers, hexes = typed_numbers(program, node, choice)
     streak = _streak(program, node, choice)
     coated = program.coated and np.any(choice.values[node.coat])
     return Card(
@@ -111,34 +124,30 @@ def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
         cannot=what_it_costs(node, surface, choice),
         formula=program.formula,
         hexes=hexes,
+        roles=_roles(program, node, numbers),
         model=surface.model.name,
         notes=streak + (readings(node, choice, surface, chosen.geom) if program.read_twice else ()),
         shown=choice.shown(surface),
     )
 
 
-def _typed(program: Program, node: Node, choice: Choice) -> tuple[dict[str, float | tuple[float, ...]], dict[str, str]]:
-    """Label -> number or colour, and label -> hex of colours; what keeps the shader's default is left out."""
-    numbers: dict[str, float | tuple[float, ...]] = {}
-    hexes = {}
-    values = program.retyped(choice.values)
-    for name, label in program.fields.items():
-        if name not in values:
-            continue
-        value, parameter = np.ravel(values[name]), node.law.parameter(name)
-        if label not in program.always and np.all(value == parameter.default):
-            continue
-        if parameter.per_channel:
-            rgb = np.broadcast_to(value, (3,))
-            numbers[label] = tuple(float(each) for each in rgb)
-            hexes[label] = hex_of(rgb)
-        else:
-            numbers[label] = float(value[0])
-    if program.rotation and np.any(choice.values[node.grain]):
-        label, of_a_radian = program.rotation
-        turned = float(np.remainder(np.sign(of_a_radian) * np.ravel(choice.values["axis"])[0], np.pi))
-        numbers[label] = turned * abs(of_a_radian)
-    return numbers, hexes
+def _roles(program: Program, node: Node, numbers: Mapping) -> dict[str, str]:
+    """What each label stands for."""
+    of_law = {
+        "base_color": "colour",
+        "specular": "weight",  # where it is not the index
+        node.metalness: "metalness",
+        node.roughness: "roughness",
+        node.weight: "weight",
+        node.index: "index",
+        node.edge: "edge",
+        node.grain: "grain",
+        node.coat: "coat",
+        node.coat_roughness: "coat_gloss" if node.coat_mirror else "coat_roughness",
+        node.coat_index: "coat_index",
+    }
+    found = {label: of_law[name] for name, label in program.fields.items() if name in of_law and label in numbers}
+    return found | ({program.rotation[0]: "rotation"} if program.rotation and program.rotation[0] in numbers else {})
 
 
 def _streak(program: Program, node: Node, choice: Choice) -> tuple[str, ...]:
@@ -158,10 +167,10 @@ def _radiances_u(surface: ColouredSurface) -> tuple[str, ...]:
 def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
     name, shader, formula = "Radiance", "plastic or metal", "Radiance's materials"
     try:
-        statement = catalog.load("exporters", "radiance").export(surface, geom).statement
+        choice, lost = catalog.load("exporters", "radiance").chosen(surface, geom)
     except NoAnswer as refused:
         return Card(name, shader, {}, None, (str(refused),), formula)
-    values = statement.written
+    values = choice.values
     rgb = np.broadcast_to(np.ravel(values["albedo"]), (3,)) if "albedo" in values else np.zeros(3)
     numbers: dict[str, float | tuple[float, ...]] = {
         "RGB": tuple(float(each) for each in rgb),
@@ -171,15 +180,17 @@ def _of_radiance(geom: Geometry | None, surface: ColouredSurface) -> Card:
     widths = widths if "alpha_x" in values else {"roughness": "roughness"}
     for key, label in widths.items():
         numbers[label] = float(np.ravel(values.get(key, 0.0))[0])
+    roles = {"RGB": "colour", "specularity": "specularity"} | dict.fromkeys(widths.values(), "roughness")
     return Card(
         program=name,
         shader=shader,
         numbers=numbers,
-        rms_ln=statement.rms_ln,
-        cannot=statement.lost,
+        rms_ln=choice.rms_ln,
+        cannot=lost,
         formula=formula,
         hexes={"RGB": hex_of(rgb)},
+        roles=roles,
         notes=_radiances_u(surface),
         model=surface.model.name,
-        shown=statement.shown,
+        shown=choice.shown(surface),
     )

@@ -3,7 +3,8 @@
 A word names a shader or a law, and numbers by the names that they have there. Some programs call known laws by other
 names or mean other numbers by them; `SPELLINGS` reads and writes these:
 
-    blender, arnold     standard-surface
+    arnold              standard-surface
+    blender             its own words: roughness, metallic, ior_level, anisotropic, coat_weight ...
     three.js            gltf
     unreal, substance   Unreal's default lit and clear coat, Painter's standard material;   principled: Mitsuba's
     pbrt                a conductor or a body under facets, alpha = √roughness
@@ -25,10 +26,10 @@ from ..models import get, made_of
 from ..models.model import Composite, Model
 from ..models.surface import Surface
 from ..physics.fresnel import f0, index_from_f0
-from . import _principled, _substance, _unreal
+from . import _blender, _principled, _substance, _unreal
 from ._law_fit import nearest_of_law
 from ._nodes import choose_node, what_it_costs
-from ._programs import node_of
+from ._programs import PROGRAMS, Program, as_words, node_of
 from ._shown import seen_of
 from .exporter import ColouredSurface, coloured
 
@@ -44,6 +45,8 @@ class Spelling:
     known: tuple[str, ...]  # the names of its numbers; empty: the law's own
     read: Callable[[Numbers], Numbers] = dict
     written: Callable[[Numbers], Numbers] = dict
+    law_and_numbers: Callable[[Numbers], tuple[str, Numbers]] | None = None  # in place of `read`, where numbers choose
+    program: Program | None = None  # whose own labels and numbers are written
 
     @property
     def written_as_it_stands(self) -> bool:
@@ -114,7 +117,9 @@ def _write_radiance(found: Numbers) -> Numbers:
 
 
 SPELLINGS = {
-    "blender": Spelling("standard-surface", ()),
+    "blender": Spelling(
+        _blender.BODY, tuple(_blender.DEFAULTS), law_and_numbers=_blender.of_blender, program=PROGRAMS[0]
+    ),
     "arnold": Spelling("standard-surface", ()),
     "three.js": Spelling("gltf", ()),
     "pbrt": Spelling("lambertian+ggx", ("reflectance", "roughness", "eta", "k"), _read_pbrt, _write_pbrt),
@@ -146,8 +151,9 @@ def read(name: str, given: Mapping[str, Sequence[float]]) -> ColouredSurface:
     for key in given:
         if spelt.known and key not in spelt.known:
             raise InputError(f"{key} is no number of {name}; there are: {', '.join(spelt.known)}")
-    numbers = spelt.read({key: list(value) if len(value) > 1 else value[0] for key, value in given.items()})
-    model = _model(spelt.law)
+    numbers: Numbers = {key: list(value) if len(value) > 1 else value[0] for key, value in given.items()}
+    law, numbers = spelt.law_and_numbers(numbers) if spelt.law_and_numbers else (spelt.law, spelt.read(numbers))
+    model = _model(law)
     return coloured(Surface.of_colours(model, model.defaults() | model.qualified(numbers)), name)
 
 
@@ -158,7 +164,11 @@ def convert(surface: ColouredSurface, to: str) -> Converted:
     """
     spelt = spelling(to)
     node = node_of(spelt.law)
-    if node is not None:
+    if spelt.program is not None:
+        node = spelt.program.node(surface)
+        choice = choose_node(node, surface, None)
+        lost, values = what_it_costs(node, surface, choice), as_words(spelt.program, node, choice)
+    elif node is not None:
         choice = choose_node(node, surface, None)
         lost, values = what_it_costs(node, surface, choice), choice.values
         if spelt.written_as_it_stands:

@@ -139,7 +139,7 @@ class Exporter:
     grained: bool = False  # whether it holds one grain
     turned: str = "rgl"  # the nearest target that holds one, of a target that does not
     averages: bool = False  # whether a surface with a grain becomes its mean over all turns, which is said
-    lobe: str = ""  # the law of models that its only lobe is; "": it has several, or any
+    lobe: str = ""  # the law of models that its only lobe is, or is nearest to; "": it has several, or any
 
     @property
     def name(self) -> str:

@@ -19,7 +19,7 @@ import numpy as np
 from ..models import term
 from ..physics import fresnel, grain, microfacet
 from ..physics.geometry import Geometry
-from ..physics.shader_optics import compensation, directional_albedo, schlick
+from ..physics.shader_optics import albedo_terms, compensation, directional_albedo, schlick
 from ._gltf import NODE as GLTF
 from ._materialx import colour3, float_value, materialx_document, shader
 from ._nodes import node_statement
@@ -62,9 +62,10 @@ def _facets(geom: Geometry, f, ends, alphas, axis):
     smooth = np.equal(alpha, 0)
     wide, narrow, one = (np.where(smooth, 1.0, each) for each in (*alphas, alpha))
     masked = microfacet.ggx_shape(geom, one) / microfacet.ggx(geom, one)
-    more = compensation(geom.cos_r, alpha, f)
+    terms = albedo_terms(geom.cos_r, alpha)
+    more = compensation(terms, f)
     lobe = np.where(smooth, 0.0, f * more * masked * grain.grained_density(geom, wide, narrow, axis))
-    return lobe, 1 - directional_albedo(geom.cos_r, alpha, *ends) * more
+    return lobe, 1 - directional_albedo(terms, *ends) * more
 
 
 def node_mirror(

@@ -1,7 +1,5 @@
 """Mitsuba 3, XML: a `<bsdf>` that loads by itself and through `<include>`; its id is the surface's name."""
 
-from xml.sax.saxutils import quoteattr
-
 from ..physics.geometry import Geometry
 from ..printable import identifier
 from ._mitsuba import tree
@@ -11,7 +9,7 @@ from .exporter import ColouredSurface, Export, Exporter, comment_lines, xml_comm
 def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
     """XML text and its Statement."""
     plugins, statement = tree(surface, geom, "mitsuba")
-    body = "\n".join(_element(plugins, "bsdf", f' id={quoteattr(identifier(surface.name))} version="3.0.0"', 0))
+    body = "\n".join(_element(plugins, "bsdf", f' id="{identifier(surface.name)}" version="3.0.0"', 0))
     return Export(f"{xml_comment(comment_lines(surface, statement))}\n{body}\n", statement)
 
 

@@ -1,7 +1,7 @@
 """MaterialX: an open_pbr_surface, metal or dielectric, under a coat where a mirror stands beside a finite part.
 
 The law fitted is models/openpbr.py, MaterialX's own nodes; its other published reading is evaluated with the same
-numbers. It dims a body at grazing even under an index of 1. A grain turns the tangent by nodes of the file.
+numbers. It dims a body at grazing even without a surface above it. A grain turns the tangent by nodes of the file.
 """
 
 import numpy as np
@@ -25,7 +25,7 @@ NODE = Node(
     coat="coat_weight",
     coat_roughness="coat_roughness",
     coat_index="coat_ior",
-    matt={"specular_ior": 1.0},
+    matt={"specular_weight": 0.0, "specular_roughness": 1.0},
     under_rough_coat=False,
     grain="specular_roughness_anisotropy",
     widths=widths,

@@ -13,14 +13,14 @@ import numpy as np
 from ..physics.geometry import Geometry
 from ..printable import identifier
 from . import _grained, _target_models
-from ._choice import choose, has_body, what_is_lost
+from ._choice import Choice, choose, has_body, what_is_lost
 from .exporter import ColouredSurface, Export, Exporter, comment_lines, number, refuse_mirror, rgb_numbers
 
 UNUSUAL = 0.2
 
 
-def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
-    """Text (.rad) and its Statement."""
+def chosen(surface: ColouredSurface, geom: Geometry | None = None) -> tuple[Choice, tuple[str, ...]]:
+    """The numbers, and sentences for what they cannot hold. Raises Refused for a mirror."""
     lost = refuse_mirror(surface, "radiance", "radiance-cal") + what_is_lost(surface)
     axis = _grained.axis_of(surface)
     plastic, metal = (
@@ -29,8 +29,14 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
     targets = {"plastic": plastic, "metal": metal}
     if not has_body(surface):
         targets["metal without a body"] = metal.with_fixed(specular=1.0)
-    choice = choose(surface, geom, {"matt": _target_models.body_alone(), **targets} if has_body(surface) else targets)
-    values = choice.values
+    matt = {"matt": _target_models.body_alone()} if has_body(surface) else {}
+    return choose(surface, geom, matt | targets), lost
+
+
+def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "surface") -> Export:
+    """Text (.rad) and its Statement."""
+    choice, lost = chosen(surface, geom)
+    axis, values = _grained.axis_of(surface), choice.values
     widths = ("alpha_x", "alpha_y") if "alpha_x" in values else ("roughness",)
     rough = [number(values.get(name, 0.0), 0.0, 1.0, "roughness") for name in widths]
     most = max(rough)
@@ -56,5 +62,10 @@ def export(surface: ColouredSurface, geom: Geometry | None = None, stem: str = "
 
 
 EXPORTER = Exporter(
-    __name__, ".rad", "Radiance plastic or metal, with a grain plastic2 or metal2; refitted", export, grained=True
+    __name__,
+    ".rad",
+    "Radiance plastic or metal, with a grain plastic2 or metal2; refitted",
+    export,
+    grained=True,
+    lobe="beckmann",
 )

@@ -38,6 +38,7 @@ class Beyond:
     basis_from: Path | None = None
     shader: str | None = None
     numbers: bool = False  # what to type into other programs
+    asked_for_numbers: bool = True  # and not only shown because people read the answer
 
 
 def add_beyond(
@@ -63,8 +64,9 @@ def add_beyond(
 
         with bar(BASELINE_STEPS) as tell:
             result["baselines"] = baselines_of(measurement, file, asked.basis_from, job.timing, tell)
-    if asked.numbers:
-        result["numbers"] = numbers_to_type([answer.surface], measurement)
+    if asked.numbers and (asked.asked_for_numbers or not answer.no_answer):
+        found = numbers_to_type([answer.surface], measurement, asked=asked.asked_for_numbers)
+        result |= {"numbers": found} if found else {}
     surfaces = {}
     if asked.shader is not None:
         result["as"], surfaces[asked.shader] = fitted_as(asked.shader, ranked, measurement, kind, job.options)
@@ -85,14 +87,27 @@ def scene_blocks(
     return {"scene": pruned.document(found, timing), "left_out": pruned.left_out(found, timing)}
 
 
-def numbers_to_type(surfaces: "Sequence[Surface]", measurement: "Measurement | None" = None) -> list[dict]:
+def numbers_to_type(
+    surfaces: "Sequence[Surface]", measurement: "Measurement | None" = None, *, asked: bool = True
+) -> list[dict]:
     """What to type into other programs, of candidates for one surface, best first; with the errors against the
-    measurement where there is one."""
+    measurement where there is one. None where nobody asked and the surface is not one to look at: its channels carry no
+    colour, or it reflects nothing.    Raises NoAnswer for such a surface where they are asked for.
+    """
+    from ..errors import NoAnswer
     from ..exporters.cards import cards
+    from ..physics.colour import in_the_visible
     from ..report.documents.numbers import numbers_block
 
+    if not asked and not in_the_visible(surfaces[0].wavelength):
+        return []
     measured = None if measurement is None else (measurement.geom, measurement.brdf)
-    return numbers_block(cards(surfaces, measured=measured))
+    try:
+        return numbers_block(cards(surfaces, measured=measured))
+    except NoAnswer:
+        if asked:
+            raise
+        return []
 
 
 def fitted_as(

@@ -15,6 +15,12 @@ def slider(name: str, default: float, *, low: float = 0.0, high: float = 1.0, fr
     return Parameter(name, default, low, high, free=free, **more)
 
 
+def in_shape_of(f: np.ndarray, values: Mapping) -> np.ndarray:
+    """A BRDF in the broadcast shape of all the values, also of those of layers that were not there to evaluate."""
+    shape = np.broadcast_shapes(f.shape, *(np.shape(value) for value in values.values()))
+    return f if f.shape == shape else np.broadcast_to(f, shape).copy()
+
+
 def coat_setting(fixed: Mapping[str, float], free: tuple[str, ...], start: Mapping[str, float]) -> dict[str, Setting]:
     """A clear coat over it."""
     return {COAT_WORD: Setting(fixed, free, start)}

@@ -14,32 +14,33 @@ Lambert's; no transmission, no fuzz, no thin film.
 Source: OpenPBR 1.1 (Academy Software Foundation 2024) as MaterialX 1.39 generates it; the masking with both widths.
 """
 
+from functools import partial
 from math import pi
 
 import numpy as np
 
 from ..physics import facet_albedo, fresnel, shader_optics
 from ..physics.geometry import Geometry
-from ..physics.shader_optics import compensation, directional_albedo, lobe_shape
+from ..physics.shader_optics import albedo_terms, compensation, directional_albedo, lobe_shape
 from ._grain import AXIS
-from ._shader import METAL_WORD, coat_setting, grain_setting, slider, starts
+from ._shader import METAL_WORD, coat_setting, grain_setting, in_shape_of, slider, starts
 from .facts import Setting
 from .model import Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, **values) -> np.ndarray:
     """BRDF [1/sr], in the shape of `geom`; light between facets multiplies the lobe."""
-    return _layered(geom, _factor, **values)
+    return in_shape_of(_layered(geom, _factor, **values), values)
 
 
 def broad(geom: Geometry, **values) -> np.ndarray:
     """The same with light between facets as a diffuse term (Kulla and Conty 2017)."""
-    return _layered(geom, _added, **values)
+    return in_shape_of(_layered(geom, _added, **values), values)
 
 
 def single(geom: Geometry, **values) -> np.ndarray:
     """The same without light between facets."""
-    return _layered(geom, _bare, **values)
+    return in_shape_of(_layered(geom, _bare, **values), values)
 
 
 def _layered(
@@ -62,17 +63,23 @@ def _layered(
 ):
     under = _roughened(specular_roughness, coat_roughness, coat_weight)
     alphas = widths(under, specular_roughness_anisotropy)
-    index = _index(specular_ior, specular_weight, coat_ior, coat_weight)
-    f = fresnel.fresnel(geom.cos_d, index)
-    lobe, left = facets(geom, f, fresnel.f0(index), fresnel.mean_fresnel(index), alphas, axis)
-    body = specular_color * lobe + left * base_color / pi
-    f = shader_optics.f82(geom.cos_d, base_color, specular_color)
-    metal, _ = facets(geom, f, base_color, shader_optics.mean_f82(base_color, specular_color), alphas, axis)
+    body, metal = 0.0, 0.0  # what has no share is not evaluated
+    if np.any(np.not_equal(base_metalness, 1)):
+        index = _index(specular_ior, specular_weight, coat_ior, coat_weight)
+        f = fresnel.fresnel(geom.cos_d, index)
+        lobe, left = facets(geom, f, fresnel.f0(index), partial(fresnel.mean_fresnel, index), alphas, axis)
+        body = specular_color * lobe + left * base_color / pi
+    if np.any(base_metalness):
+        f = shader_optics.f82(geom.cos_d, base_color, specular_color)
+        mean = partial(shader_optics.mean_f82, base_color, specular_color)
+        metal, _ = facets(geom, f, base_color, mean, alphas, axis)
     base = body + (specular_weight * metal - body) * base_metalness
+    if not np.any(coat_weight):
+        return base
     f0 = fresnel.f0(coat_ior)
     on_top = widths(coat_roughness, 0.0)
     f = fresnel.fresnel(geom.cos_d, coat_ior)
-    lobe, left = facets(geom, f, f0, fresnel.mean_fresnel(coat_ior), on_top, axis)
+    lobe, left = facets(geom, f, f0, partial(fresnel.mean_fresnel, coat_ior), on_top, axis)
     darkened = _darkened(base_color * (1 + (specular_weight - 1) * base_metalness), coat_ior)
     through = 1 + (coat_color - 1) * coat_weight
     dims = 1 + (darkened - 1) * coat_weight * coat_darkening
@@ -82,25 +89,27 @@ def _layered(
 def _factor(geom: Geometry, f, f0, _mean, alphas, axis):
     """A lobe and what it leaves: light between facets as a factor."""
     alpha = np.sqrt(np.multiply(*alphas))
-    more = compensation(geom.cos_r, alpha, f)
-    left = 1 - directional_albedo(geom.cos_r, alpha, f0) * more
+    terms = albedo_terms(geom.cos_r, alpha)
+    more = compensation(terms, f)
+    left = 1 - directional_albedo(terms, f0) * more
     return f * more * lobe_shape(geom, alphas, axis), left
 
 
 def _bare(geom: Geometry, f, f0, _mean, alphas, axis):
     """A lobe and what it leaves: without light between facets."""
     alpha = np.sqrt(np.multiply(*alphas))
-    return f * lobe_shape(geom, alphas, axis), 1 - directional_albedo(geom.cos_r, alpha, f0)
+    return f * lobe_shape(geom, alphas, axis), 1 - directional_albedo(albedo_terms(geom.cos_r, alpha), f0)
 
 
-def _added(geom: Geometry, f, f0, mean, alphas, axis):
+def _added(geom: Geometry, f, f0, mean_reflectance, alphas, axis):
     """A lobe and what it leaves: light between facets as a diffuse term."""
     alpha = np.clip(np.sqrt(np.multiply(*alphas)), facet_albedo.NARROWEST, facet_albedo.WIDEST)
     lost = facet_albedo.mean_lost(alpha)
     lost_i, lost_r = facet_albedo.lost(geom.cos_i, alpha), facet_albedo.lost(geom.cos_r, alpha)
+    mean = mean_reflectance()
     again = mean * mean * (1 - lost) / (1 - mean * lost)
     lobe = f * lobe_shape(geom, alphas, axis) + again * lost_i * lost_r / (pi * lost)
-    return lobe, 1 - directional_albedo(geom.cos_r, alpha, f0) - again * lost_r
+    return lobe, 1 - directional_albedo(albedo_terms(geom.cos_r, alpha), f0) - again * lost_r
 
 
 def mirror(

@@ -19,29 +19,29 @@ import numpy as np
 
 from ..physics import fresnel, shader_optics
 from ..physics.geometry import Geometry
-from ..physics.shader_optics import compensation, directional_albedo, lobe_shape
+from ..physics.shader_optics import albedo_terms, compensation, directional_albedo, lobe_shape
 from ._grain import AXIS
-from ._shader import METAL_WORD, coat_setting, grain_setting, slider, starts
+from ._shader import METAL_WORD, coat_setting, grain_setting, in_shape_of, slider, starts
 from .facts import Setting
 from .model import Extreme, Model, Parameter, Pin, at
 
 
 def brdf(geom: Geometry, **values) -> np.ndarray:
     """BRDF [1/sr], in the shape of `geom`."""
-    return _layered(geom, _metal, compensation, **values)
+    return in_shape_of(_layered(geom, _metal, compensation, **values), values)
 
 
 def single(geom: Geometry, **values) -> np.ndarray:
     """The same without light between facets."""
-    return _layered(geom, _metal, _nothing, **values)
+    return in_shape_of(_layered(geom, _metal, _nothing, **values), values)
 
 
 def single_with_schlick(geom: Geometry, **values) -> np.ndarray:
     """The same without light between facets, a metal's F by Schlick from base_color: its edge colour is white."""
-    return _layered(geom, _schlick, _nothing, **values)
+    return in_shape_of(_layered(geom, _schlick, _nothing, **values), values)
 
 
-def _nothing(cos_r, alpha, reflectance):
+def _nothing(terms, reflectance):
     return 1.0
 
 
@@ -74,20 +74,27 @@ def _layered(
     coat_ior,
 ):
     alphas = widths(specular_roughness, specular_anisotropy)
-    alpha, shape = np.sqrt(np.multiply(*alphas)), lobe_shape(geom, alphas, axis)
-    f = fresnel.fresnel(geom.cos_d, specular_ior)
-    factor = more(geom.cos_r, alpha, f)
-    left = 1 - specular * directional_albedo(geom.cos_r, alpha, fresnel.f0(specular_ior)) * factor
-    below = sheen * _sheen(geom, sheen_roughness) + (1 - sheen * _sheen_albedo(geom.cos_r, sheen_roughness)) * (
-        base_color / pi
-    )
-    body = specular * specular_color * f * factor * shape + left * below
-    f = of_metal(geom.cos_d, base_color, specular * specular_color)
-    base = body + (f * more(geom.cos_r, alpha, f) * shape - body) * metalness
+    terms, shape = albedo_terms(geom.cos_r, np.sqrt(np.multiply(*alphas))), lobe_shape(geom, alphas, axis)
+    body, metal = 0.0, 0.0  # what has no share is not evaluated
+    if np.any(np.not_equal(metalness, 1)):
+        f = fresnel.fresnel(geom.cos_d, specular_ior)
+        factor = more(terms, f)
+        left = 1 - specular * directional_albedo(terms, fresnel.f0(specular_ior)) * factor
+        below = base_color / pi
+        if np.any(sheen):
+            below = (1 - sheen * _sheen_albedo(geom.cos_r, sheen_roughness)) * below
+            below = below + sheen * _sheen(geom, sheen_roughness)
+        body = specular * specular_color * f * factor * shape + left * below
+    if np.any(metalness):
+        f = of_metal(geom.cos_d, base_color, specular * specular_color)
+        metal = f * more(terms, f) * shape
+    base = body + (metal - body) * metalness
+    if not np.any(coat):
+        return base
     wide = np.square(coat_roughness)
-    f = fresnel.fresnel(geom.cos_d, coat_ior)
-    factor = more(geom.cos_r, wide, f)
-    left = 1 - coat * directional_albedo(geom.cos_r, wide, fresnel.f0(coat_ior)) * factor
+    terms, f = albedo_terms(geom.cos_r, wide), fresnel.fresnel(geom.cos_d, coat_ior)
+    factor = more(terms, f)
+    left = 1 - coat * directional_albedo(terms, fresnel.f0(coat_ior)) * factor
     on_top = coat * f * factor * lobe_shape(geom, (wide, wide), 0.0)
     return on_top + left * (1 + (coat_color - 1) * coat) * base
 

@@ -94,6 +94,12 @@ def spans_the_visible(um) -> bool:
     return len(set(nm.tolist())) >= 3 and nm.min() <= 1e3 * VISIBLE_UM[0] and nm.max() >= 1e3 * VISIBLE_UM[1]
 
 
+def in_the_visible(um) -> bool:
+    """Whether an eye sees light of any of the wavelengths [µm]."""
+    um = np.asarray(um, float)
+    return bool(np.any((um >= SEEN_UM[0]) & (um <= SEEN_UM[1])))
+
+
 def of_wavelengths(um, tables: bool = True) -> tuple[np.ndarray, str]:
     """(3, channels) from values at wavelengths [µm], straight lines between them, to linear sRGB; and how.
 

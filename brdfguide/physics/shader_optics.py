@@ -17,12 +17,12 @@ from .geometry import Geometry
 COS_82 = 1 / 7  # where F82 bends Schlick's curve
 
 # coefficients of 1, x, y, xy, x², y², x²y, xy², x²y² with x = cos θr, y = alpha: numerators of A and B, denominators
-ALBEDO_FIT = np.array([
-    [0.1003, -0.6303, 9.748, -2.038, 29.34, -8.245, -26.44, 19.99, -5.448],
-    [0.9345, -2.323, 2.229, -3.748, 1.424, -0.7684, 1.436, 0.2913, 0.6286],
-    [1.0, -1.765, 8.263, 11.53, 28.96, -7.507, -36.11, 15.86, 33.37],
-    [1.0, 0.2281, 15.94, -55.83, 13.08, 41.26, 54.9, 300.2, -285.1],
-])  # fmt: skip
+ALBEDO_FIT = (
+    (0.1003, -0.6303, 9.748, -2.038, 29.34, -8.245, -26.44, 19.99, -5.448),
+    (0.9345, -2.323, 2.229, -3.748, 1.424, -0.7684, 1.436, 0.2913, 0.6286),
+    (1.0, -1.765, 8.263, 11.53, 28.96, -7.507, -36.11, 15.86, 33.37),
+    (1.0, 0.2281, 15.94, -55.83, 13.08, 41.26, 54.9, 300.2, -285.1),
+)
 
 
 def schlick(cos_d, f0, f90=1.0):
@@ -57,22 +57,26 @@ def index_of_weight(n, weight):
     return (1 + root) / (1 - root)
 
 
-def directional_albedo(cos_r, alpha, f0, f90=1.0):
-    """E of a GGX lobe seen from θr, A F0 + B F90, A and B held to 0..1."""
-    a, b = _albedo_terms(cos_r, alpha)
-    return f0 * a + f90 * b
-
-
-def _albedo_terms(x, y):
-    powers = np.stack(np.broadcast_arrays(1.0, x, y, x * y, x * x, y * y, x * x * y, x * y * y, x * x * y * y))
-    top_a, top_b, below_a, below_b = np.tensordot(ALBEDO_FIT, powers, axes=1)
+def albedo_terms(cos_r, alpha):
+    """A and B of a GGX lobe seen from θr, each held to 0..1: its albedo is A F0 + B F90."""
+    y = np.asarray(alpha, float)
+    top_a, top_b, below_a, below_b = (
+        (low + y * (by_y + y * by_y2)) + cos_r * ((by_x + y * (xy + y * xy2)) + cos_r * (by_x2 + y * (x2y + y * x2y2)))
+        for low, by_x, by_y, xy, by_x2, by_y2, x2y, xy2, x2y2 in ALBEDO_FIT
+    )
     return np.clip(top_a / below_a, 0, 1), np.clip(top_b / below_b, 0, 1)
 
 
-def compensation(cos_r, alpha, reflectance):
-    """What light between facets adds to a lobe, as a factor: 1 + F (1 - E)/E."""
-    e = directional_albedo(cos_r, alpha, 1.0)
-    return 1 + reflectance * (1 - e) / e
+def directional_albedo(terms, f0, f90=1.0):
+    """E of a GGX lobe, A F0 + B F90, of its `albedo_terms`."""
+    a, b = terms
+    return f0 * a + f90 * b
+
+
+def compensation(terms, reflectance):
+    """What light between facets adds to a lobe of these `albedo_terms`, as a factor: 1 + F (1 - E)/E."""
+    e = directional_albedo(terms, 1.0)
+    return 1 + reflectance * ((1 - e) / e)
 
 
 def lobe_shape(geom: Geometry, alphas, axis) -> np.ndarray:

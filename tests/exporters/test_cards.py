@@ -74,6 +74,45 @@ def test_a_mirror_over_a_lobe_is_a_coat_in_every_program():
     assert found["Mitsuba"].numbers["clearcoat"] > 0.5 and "glows" in found["Mitsuba"].cannot[0]
 
 
+def test_a_matt_body_is_matt_in_blender():
+    """IOR Level 0: without it Blender lays a lobe of index 1.5 over every body."""
+    found = by_program("lambertian", {"albedo": [0.5, 0.3, 0.1]}, "Blender", "Unreal")
+    assert found["Blender"].numbers["IOR Level"] == 0.0 and found["Blender"].rms_ln < 1e-6
+    assert found["Unreal"].numbers["Specular"] == 0.0
+    coated = by_program("coated:lambertian", {}, "Blender", "Arnold, Maya, Houdini")
+    assert coated["Blender"].numbers["IOR Level"] == 0.0 == coated["Arnold, Maya, Houdini"].numbers["specular"]
+
+
+def test_a_coat_is_typed_in_full():
+    """Defaults of its roughness differ: 0.03 in Blender, 0.1 in Arnold, 0 here."""
+    found = by_program("ggx+mirror", {"ggx.n": 0.5, "ggx.k": 3.0}, "Blender", "Arnold, Maya, Houdini", "OpenPBR")
+    assert found["Blender"].numbers["Coat Roughness"] == 0.0
+    assert found["Arnold, Maya, Houdini"].numbers["coat_roughness"] == 0.0
+    assert {"coat_weight", "coat_roughness", "coat_ior"} <= found["OpenPBR"].numbers.keys()
+
+
+def test_something_clear_is_no_metal():
+    """A black metal with a dark edge looks the same from outside."""
+    clear = by_program("ggx", {"n": 1.5, "k": 0.0, "alpha": 0.15}, "Arnold, Maya, Houdini", "glTF, three.js")
+    metal = by_program("ggx", {"n": 0.3, "k": 3.0, "alpha": 0.15}, "Arnold, Maya, Houdini", "glTF, three.js")
+    assert [each.numbers[label] for each, label in zip(clear.values(), ("metalness", "metallic"), strict=True)] == [
+        0.0,
+        0.0,
+    ]
+    assert [each.numbers[label] for each, label in zip(metal.values(), ("metalness", "metallic"), strict=True)] == [
+        1.0,
+        1.0,
+    ]
+
+
+def test_every_number_has_its_role_in_every_program():
+    """Only what no other program has stands without one."""
+    grained = by_program("ggx-aniso", {"n": 1.2, "k": 6.0, "alpha_x": 0.3, "alpha_y": 0.1, "axis": 30.0})
+    for card in (*grained.values(), *by_program("ggx+mirror", {"ggx.n": 0.5, "ggx.k": 3.0}).values()):
+        assert card.numbers.keys() == card.roles.keys(), card.program
+        assert card.rms_ln is None or {"colour", "roughness"} <= set(card.roles.values())
+
+
 def test_what_cannot_be_typed_is_said():
     found = by_program("lambertian+ggx+mirror", {"ggx.alpha": 0.2})
     assert found["Radiance"].rms_ln is None and "mirror" in found["Radiance"].cannot[0]

@@ -29,6 +29,7 @@ def numbers_block(cards: list[Card]) -> list[dict]:
                 for label, value in card.numbers.items()
             },
             "hex": dict(card.hexes),
+            "means": dict(card.roles),
             "rms_ln": card.rms_ln,
             "off_percent": _percent(card.rms_ln),
             "measured_rms_ln": card.measured_rms_ln,
