@@ -102,7 +102,8 @@ def _worth_settling(
 ) -> dict[str, tuple[TargetModel, Mapping]]:
     """Laws with the values that come nearest, in order: those that hold a model's own values, and those that come near
     the best of them over a few directions."""
-    exact, tried = {}, {}
+    exact: dict[str, Mapping] = {}
+    tried: dict[str, tuple[float, Mapping]] = {}
     for name, target in targets.items():
         own = _as_known(target, known, goal)
         if not target.parameters:
@@ -113,7 +114,7 @@ def _worth_settling(
             exact[name] = own
             break  # none is better
     least = min((error for error, _ in tried.values()), default=0.0)
-    found = {}
+    found: dict[str, tuple[TargetModel, Mapping]] = {}
     for name, target in targets.items():
         if name in exact:
             found[name] = target, exact[name]

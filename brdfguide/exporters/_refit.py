@@ -18,7 +18,9 @@ from ..models.model import Parameter
 from ..numerics import least_squares
 from ..numerics.nonnegative import non_negative
 from ..physics.geometry import Geometry
+from ._mirrored import BesideMirror
 
+Places = Geometry | BesideMirror  # where a law is evaluated
 FAR = 1.2  # a second start this much worse than the first is not searched from
 STEP = 1e-6  # of a parameter's scale, for differences
 DARKEST = 1e-13  # of what is wanted: bounds the residual of a law that vanishes, in the search only
@@ -36,7 +38,7 @@ class TargetModel:
     fixed: Mapping = field(default_factory=dict)  # held parameters, which the file needs too
     broadcasts: bool = False  # whether values (sets, 1, colours) give (sets, samples, colours)
 
-    def at(self, geom: Geometry, values: Mapping) -> np.ndarray:
+    def at(self, geom: Places, values: Mapping) -> np.ndarray:
         return self.brdf(geom, **values)
 
     def with_fixed(self, **fixed) -> "TargetModel":
@@ -45,7 +47,7 @@ class TargetModel:
         free = tuple(p for p in self.parameters if p.name not in fixed)
         return replace(self, parameters=free, brdf=partial(self.brdf, **fixed), fixed={**self.fixed, **fixed})
 
-    def of_sets(self, geom: Geometry, sets: Mapping[str, np.ndarray], colours: int) -> np.ndarray:
+    def of_sets(self, geom: Places, sets: Mapping[str, np.ndarray], colours: int) -> np.ndarray:
         """(sets, samples, colours) of values (sets,), or (sets, colours) of per-channel parameters."""
         several = {
             p.name: sets[p.name][:, None, :] if p.per_channel else sets[p.name][:, None, None] for p in self.parameters
@@ -64,7 +66,7 @@ class TargetModel:
 class Goal:
     """What is wanted (samples, colours; NaN: does not count) in some directions, and how many each stands for."""
 
-    geom: Geometry
+    geom: Places
     wanted: np.ndarray
     weights: np.ndarray | float = 1.0  # (samples,)
 
