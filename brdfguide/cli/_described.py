@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..opening import exists
 from ._streams import say, whisper
 
-SWITCHES = {"--json", "--no-timing", "--explain", "--full", "--quiet", "-q", "--anyway"}
+SWITCHES = {"--json", "--no-timing", "--explain", "--full", "--quiet", "-q", "--anyway", "--no-numbers"}
 
 
 @dataclass(frozen=True)
@@ -94,8 +94,23 @@ def answered_description(words: list[str]) -> int | None:
     if "--json" in switches:
         say(json_text(document))
     else:
-        say(page(text(printable.document(document), explain, "--full" in switches)))
+        words = text(printable.document(document), explain, "--full" in switches)
+        surfaces = [] if "--no-numbers" in switches else [each.surface for each in answer.candidates]
+        say(page(words + numbers_in_words(surfaces, document)))
     return status_of_descriptions([answer])
+
+
+def numbers_in_words(surfaces, document: dict, measurement=None, *, asked: bool = False) -> str:
+    """Adds what to type into other programs to the document and gives it in words; nothing where nobody asked and there
+    is none. `surfaces`: candidates for one, best first; none where there is no answer."""
+    if not surfaces:
+        return ""
+    from ..face.beyond import numbers_to_type
+    from ..report.text.numbers import card_text
+
+    found = numbers_to_type(surfaces, measurement, asked=asked)
+    document |= {"numbers": found} if found else {}
+    return "\n\n" + card_text(printable.document(found)) if found else ""
 
 
 def json_text(document: dict) -> str:

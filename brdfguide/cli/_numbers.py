@@ -4,7 +4,7 @@ from typing import Annotated
 
 from typer import Option
 
-from .. import printable
+from ._described import numbers_in_words
 
 NumbersOption = Annotated[
     bool | None,
@@ -22,16 +22,8 @@ def shows_numbers(numbers: bool | None, page: bool, json: bool) -> bool:
 
 
 def numbers_of(surfaces, request, document: dict, measurement=None) -> str:
-    """Adds the block to the document and gives it in words; nothing where it is not wanted, or where nobody asked and
-    there are none. `surfaces`: candidates for one, best first; none where there is no answer."""
+    """`numbers_in_words`; nothing where the block is not wanted."""
     page, json = request.pictures.report is not None, request.output.json
-    if not surfaces or not shows_numbers(request.numbers, page, json):
+    if not shows_numbers(request.numbers, page, json):
         return ""
-    from ..face.beyond import numbers_to_type
-    from ..report.text.numbers import card_text
-
-    found = numbers_to_type(surfaces, measurement, asked=bool(request.numbers))
-    if not found:
-        return ""
-    document["numbers"] = found
-    return "\n\n" + card_text(printable.document(document)["numbers"])
+    return numbers_in_words(surfaces, document, measurement, asked=bool(request.numbers))
