@@ -94,9 +94,9 @@ def answered_description(words: list[str]) -> int | None:
     if "--json" in switches:
         say(json_text(document))
     else:
-        words = text(printable.document(document), explain, "--full" in switches)
+        shown = text(printable.document(document), explain, "--full" in switches)
         surfaces = [] if "--no-numbers" in switches else [each.surface for each in answer.candidates]
-        say(page(words + numbers_in_words(surfaces, document)))
+        say(page(shown + numbers_in_words(surfaces, document)))
     return status_of_descriptions([answer])
 
 
