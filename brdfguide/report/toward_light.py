@@ -7,18 +7,16 @@ stand, each direction's share goes to the one that it is near, by the fourth pow
 import numpy as np
 
 from ..exporters.exporter import ColouredSurface
-from ..physics.geometry import Geometry
 
-PEAKED = 1.05  # a lobe at the light, over the mean of what is 4 degrees to either side
 TURN = np.array([-1.0, -1.0, 1.0])  # half a turn about the normal
 
 
 def shines_back(surface: ColouredSurface) -> bool:
-    """Whether a surface has a lobe about the light, or a law for one."""
-    if any(term.model.family == "retro-reflection" for term in surface.model.terms):
-        return True
-    low, middle, high = surface.rgb(Geometry.from_degrees(np.array([[41.0], [45.0], [49.0]]), 180.0, 45.0, 180.0))
-    return bool(np.max(middle - PEAKED * 0.5 * (low + high)) > 0)
+    """Whether a law of a surface is one of retro-reflection, or has a generalised lobe that is tilted to the light."""
+    return any(
+        term.model.family == "retro-reflection" or np.any(np.asarray(surface.values_of(term).get("tilt", 0.0)) < 0)
+        for term in surface.model.terms
+    )
 
 
 def share_of_mirror_side(i, r, mirror=1.0, back=1.0) -> np.ndarray:

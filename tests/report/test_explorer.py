@@ -28,15 +28,29 @@ from ..conftest import ROOT
 NODE = shutil.which("node")
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 RANKED = sorted({each.name for kind in ("metal", "dielectric") for each in of_kind(kind)})
+BARE = sorted({word for name in RANKED for word in name.split("+") if ":" not in word} | {"retro"})
+EVERY = 4  # pixel along each side, where laws are many
+# Each law at the values that CASES gives it, a list of {key: value}; few pixels of each
+CORNERS = """<script>const x = document.getElementById('explorer').explorer, out = [];
+  x.state.models.forEach((m, n) => { for (const c of CASES[n]) {
+    m.knobs.forEach((k, j) => { k.value = k.key in c ? [c[k.key]] : [...m.fitted[j]]; });
+    const all = x.paint(m), few = []; let b = '';
+    for (let r = EVERY / 2; r < 512; r += EVERY) for (let q = EVERY / 2; q < 512; q += EVERY)
+      for (let k = 0; k < 3; k++) few.push(all[4 * (512 * r + q) + k]);
+    for (const e of new Uint8Array(new Float32Array(few).buffer)) b += String.fromCharCode(e);
+    out.push(btoa(b)); } });
+  const p = document.createElement('pre'); p.id = 'corners'; p.textContent = out.join(' '); document.body.append(p);
+</script></body>"""
 DUMP = """<script>const wait = () => { const r = document.getElementById('explorer'), x = r.explorer;
-  if (r.dataset.done !== 'yes') return setTimeout(wait, 50);
   const show = (id, text) => { const p = document.createElement('pre');
     p.id = id; p.textContent = text; document.body.append(p); };
+  if (r.dataset.done !== 'yes') return setTimeout(wait, 50);
   const packed = a => { const b = new Uint8Array(a.buffer); let s = '';
     for (let i = 0; i < b.length; i += 30000) s += String.fromCharCode(...b.subarray(i, i + 30000)); return btoa(s); };
   x.state.models.forEach((m, k) => m.gl && show('pixels' + k, packed(x.pixels(m))));
   show('told', JSON.stringify({rms: x.state.models.map(m => x.error(m)), words: x.state.models.map(x.words),
-    documents: x.state.models.map(x.documentOf), wide: document.documentElement.scrollWidth - innerWidth,
+    documents: x.state.models.map(x.documentOf), yaml: x.state.models.map(x.yaml),
+    wide: document.documentElement.scrollWidth - innerWidth,
     requests: performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).map(e => e.name)}));
 }; setTimeout(wait, 50);</script></body>"""
 
@@ -53,10 +67,10 @@ def in_node(script: str):
     return json.loads(run.stdout)
 
 
-def in_browser(page: str, folder, *options: str, link: str = "") -> str:
+def in_browser(page: str, folder, *options: str, link: str = "", dump: str = DUMP) -> str:
     if not BROWSER:
         pytest.skip("no chromium on this machine")
-    (folder / "page.html").write_text(page.replace("</body>", DUMP))
+    (folder / "page.html").write_text(page.replace("</body>", dump))
     gpu = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist")
     quiet = ("--disable-background-networking", "--no-first-run", "--enable-logging=stderr")
     where = (f"--user-data-dir={folder / 'profile'}", "--virtual-time-budget=120000", "--window-size=1200,1400")
@@ -132,6 +146,45 @@ def test_no_pixel_is_more_than_one_code_from_the_previews(pair, tmp_path):
         assert np.quantile(np.abs(got / expected - 1), 0.99) < 2e-3
 
 
+def corners(name: str) -> list[dict]:
+    """Start values, and the least and the greatest of every number that can be turned but amplitudes.
+
+    Of a lobe about the light the least alpha is .03: i - r is a difference of float32 there.
+    """
+    knobs = [k for k in shown(name)["models"][0]["knobs"] if not (k["held"] or k["minor"] or k["linear"])]
+    least = {k["key"]: 0.03 if k["key"] == "retro.alpha" else k["low"] for k in knobs}
+    return [{}, least, {k["key"]: k["high"] for k in knobs}]
+
+
+def few_pixels(surface) -> np.ndarray:
+    """Of the preview's 512 x 512, those that `CORNERS` takes, from the top."""
+    pick = slice(EVERY // 2 - 1, None, EVERY), slice(EVERY // 2, None, EVERY)
+    view, sun = render.view(512), render.sun_direction("side")
+    normal, share = view.normal[pick], view.covered[pick][..., None]
+    height = 0.9 * ((1 - (np.arange(512) + 0.5) / 512)[pick[0]] - 0.66)
+    image = np.array(np.broadcast_to(render.sky(height)[:, None], normal.shape))
+    on = share[..., 0] > 0
+    lit = render.around_of(surface, normal[on])
+    lit += render.sun_of(surface, normal[on], sun) + render.mirror_of(surface, normal[on], sun)
+    image[on] += share[on] * (lit - image[on])
+    return image
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("names", [BARE[::2], BARE[1::2]], ids="+".join)
+def test_no_law_is_more_than_one_code_from_the_previews_at_the_corners_of_its_box(names, tmp_path):
+    page = explorer_page(shown(*names), "corners")
+    cases = [corners(name) for name in names]
+    dump = CORNERS.replace("CASES", json.dumps(cases)).replace("EVERY", str(EVERY))
+    found = re.search(r'<pre id="corners">([^<]*)', in_browser(page, tmp_path, dump=dump)).group(1).split()
+    for name, case, text in zip(np.repeat(names, 3), [each for one in cases for each in one], found, strict=True):
+        got = np.frombuffer(base64.b64decode(text), np.float32).reshape(512 // EVERY, -1, 3)[::-1]
+        assert np.isfinite(got).all() and got.min() >= 0, (name, case)
+        expected = few_pixels(coloured(Surface.named(name, {}).with_values(case), name))
+        codes = [np.round(255 * np.clip(render.tone(each), 0, 1)) for each in (got, expected)]
+        assert np.abs(codes[0] - codes[1]).max() <= 1, (name, case)
+
+
 @pytest.mark.browser
 def test_the_page_tells_the_fits_error_and_its_copies_are_read_back(tmp_path):
     page, names = explorer_html((), ROOT / "examples" / "white_paper.csv")
@@ -156,6 +209,28 @@ def test_a_link_keeps_what_was_moved(tmp_path):
     )
     assert "ggx.alpha=0.4" in moved["words"][1]
     assert "ward.alpha=0.2" in moved["words"][0]  # out of bounds: not taken
+    (tmp_path / "copied.yaml").write_text(moved["yaml"][1])
+    again = named_surface(f"{tmp_path / 'copied.yaml'}#lambertian+ggx").values
+    assert [again["lambertian.albedo"], again["ggx.alpha"], again["ggx.n"]] == pytest.approx([0.5, 0.4, 1.5])
+
+
+@pytest.mark.browser
+def test_facets_stand_on_the_contour_at_half_their_alpha_and_keys_walk_along_it(tmp_path):
+    press = DUMP.replace(
+        "if (r.dataset.done !== 'yes')",
+        "if (!r.pressed) { r.pressed = 1; const c = r.querySelector('[data-is=chart]'); c.focus();"
+        " for (const key of ['ArrowRight', 'ArrowRight', 'ArrowLeft'])"
+        " c.dispatchEvent(new KeyboardEvent('keydown', {key}));"
+        " show('focused', document.activeElement === c);"
+        " show('reading', r.querySelector('[data-is=reading]').textContent); }"
+        " if (r.dataset.done !== 'yes')",
+    )
+    dom = in_browser(explorer_page(shown("ward ward.alpha=0.1"), "keys"), tmp_path, "--disable-3d-apis", dump=press)
+    reading = re.search(r'<pre id="reading">([^<]*)', dom).group(1)
+    assert '<pre id="focused">true' in dom and "slope alpha/2 = 0.0515" in reading
+    sigma = float(re.search(r"criterion sigma ([\d.]+)", reading).group(1))
+    assert sigma == pytest.approx(crossing(75, 0.0515)[0], rel=2e-3)
+    assert "ward.alpha=0.103" in told(dom)["words"][0]
 
 
 def test_a_page_without_data_is_small_needs_nothing_and_is_the_same_each_time():

@@ -66,3 +66,17 @@ def test_nearly_smooth_metal_blurs_the_horizon_in_front_and_not_at_the_edge():
     front, edge = (f"sharpness of the horizon {where}, " for where in ("on the front", "at the edge"))
     assert found[front + "He-Torrance"] < 0.7 * found[front + "ideal mirror"]
     assert found[edge + "He-Torrance"] > 0.8 * found[edge + "ideal mirror"]
+
+
+@pytest.mark.validate
+def test_phong_is_brighter_near_the_normal_and_much_darker_toward_grazing():
+    """Figure 6."""
+    near, grazing = claims(6, 64, 16).values()
+    assert 1.05 < near < 1.4 and grazing < 0.75
+
+
+@pytest.mark.validate
+def test_a_clear_coat_shines_at_the_edges_of_a_body():
+    """Figure 12, paint and coat both from our exports."""
+    facing, edge = claims(12, 64, 16).values()
+    assert 0.01 < facing < 0.04 and edge > 5 * facing

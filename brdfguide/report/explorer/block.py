@@ -9,7 +9,7 @@ from ...errors import InputError
 from .shaders import unindented
 
 STRING = re.compile(r"('(?:[^'\\\n]|\\.)*')")
-SIGNS = re.compile(r"(?<! ) *([=*<>(),;{}?:&|]) *")
+SIGNS = re.compile(r"(?<! ) *([=*<>(),;{}?:&|]|(?<!\+)(?<!\+ )\+(?! *\+)|(?<!-)(?<!- )-(?! *-)) *")
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 BODY = """<div id="explorer">
 <div class="look"><p data-is="says" aria-live="polite"></p>
@@ -29,6 +29,7 @@ BODY = """<div id="explorer">
 <div class="wide"><canvas data-is="cuts" role="img" aria-label="BRDF in the plane of incidence over the reflection angle"></canvas></div>
 <div><canvas data-is="polar" role="img" aria-label="the same as polar lobes"></canvas></div>
 <div><div class="row"><button type="button" data-copy="words">copy as words</button><button type="button" data-copy="json">copy as JSON</button>
+<button type="button" data-copy="yaml">copy as YAML</button>
 <button type="button" data-copy="export">copy the export command</button><span class="soft" data-is="copied" aria-live="polite"></span></div>
 <textarea data-is="text" readonly aria-label="the numbers of A"></textarea></div>
 </div>"""  # noqa: E501

@@ -229,8 +229,10 @@ function fill() {
 }
 
 // ---- the contour of emergence
-const wave = m => { const find = name => m.knobs.find(k => k.key.endsWith('he-torrance.' + name) || k.key === name);
-  return find('sigma') && find('slope') && {sigma: find('sigma'), slope: find('slope')}; };
+const wave = m => { const find = name => m.knobs.find(k => k.key.endsWith('he-torrance.' + name) || k.key === name), a = m.knobs.find(k => k.key.endsWith('alpha') && !k.held);
+  if (find('sigma') && find('slope')) return {sigma: find('sigma'), slope: find('slope')};
+  if (a) return {facets: 1, slope: {low: a.low / 2, high: a.high / 2, get value() { return [a.value[0] / 2]; }, set: (x, f) => a.set(2 * x, f)}, sigma: {get value() { return [crossing(state.angle, a.value[0] / 2, UM)]; }, set() {}}};
+};
 function crossing(angle, slope, um) {
   const C = S.contours, spot = (grid, x) => { let k = 0; while (k < grid.length - 2 && grid[k + 1] <= x) k++; return [k, (x - grid[k]) / (grid[k + 1] - grid[k])]; };
   const [i, u] = spot(C.ln_cos.map(x => -x), -Math.log(Math.cos(angle * Math.PI / 180))), [j, v] = spot(C.slopes.map(Math.log), Math.log(slope));
@@ -239,14 +241,14 @@ function crossing(angle, slope, um) {
   const rows = C.ln_sigma.map(row => cubic([-1, 0, 1, 2].map(d => at(row, j + d)), v));
   return Math.exp(cubic([-1, 0, 1, 2].map(d => at(rows, i + d)), u)) * um / C.wavelength;
 }
-const waving = () => [S.models[state.a], S.models[state.b]].find(wave);
+const waving = () => { const two = [S.models[state.a], S.models[state.b]]; return two.find(m => wave(m) && !wave(m).facets) || two.find(wave); };
 const UM = .55, eq3 = tau => { const T = [[15, 1.1], [45, 1.6], [60, 2.4], [75, 5.5], [80, 9], [85, 20]], x = a => -Math.log(Math.cos(a * Math.PI / 180));
   let k = 0; while (k < T.length - 2 && T[k + 1][0] < state.angle) k++;
   const s = (x(state.angle) - x(T[k][0])) / (x(T[k + 1][0]) - x(T[k][0]));
   return state.angle > 85 ? null : T[k][1] * (T[k + 1][1] / T[k][1]) ** s / (tau ** .7 + 6); };
 function follow(m, moved) {
   const w = wave(m);
-  if (!state.lock || !w || (moved !== w.sigma && moved !== w.slope)) return;
+  if (!state.lock || !w || w.facets || (moved !== w.sigma && moved !== w.slope)) return;
   if (moved === w.slope) w.sigma.set(crossing(state.angle, w.slope.value[0], UM), true);
   else { let low = Math.log(Math.max(w.slope.low, .02)), high = Math.log(Math.min(w.slope.high, .5));
     for (let k = 0; k < 60; k++) { const mid = (low + high) / 2; crossing(state.angle, Math.exp(mid), UM) < w.sigma.value[0] ? low = mid : high = mid; }
@@ -305,7 +307,7 @@ function chart(ink, rule, A) {
   c.strokeStyle = '#c1272d'; c.lineWidth = 2; c.beginPath(); for (let s = .02; s <= .5; s *= 1.05) c[s > .02 ? 'lineTo' : 'moveTo'](X(s), Y(crossing(state.angle, s, UM))); c.stroke();
   c.fillStyle = A; c.beginPath(); c.arc(X(w.slope.value[0]), Y(w.sigma.value[0]), 5, 0, 7); c.fill();
   const tau = w.sigma.value[0] / w.slope.value[0], formula = eq3(tau), there = crossing(state.angle, w.slope.value[0], UM);
-  $('reading').textContent = 'On the ' + short(state.angle) + '° contour at this slope: criterion sigma ' + short(there) + ' \u00b5m, tau ' + short(there / w.slope.value[0]) + ' \u00b5m' + (formula ? '; Eq. 3 at tau ' + short(tau) + ' \u00b5m: sigma ' + short(formula) + ' \u00b5m.' : '.');
+  $('reading').textContent = (w.facets ? m.name + ': facets of slope alpha/2 = ' + short(w.slope.value[0]) + '; they show no mirror image, waves would. ' : '') + 'On the ' + short(state.angle) + '° contour at this slope: criterion sigma ' + short(there) + ' \u00b5m, tau ' + short(there / w.slope.value[0]) + ' \u00b5m' + (formula ? '; Eq. 3 at tau ' + short(tau) + ' \u00b5m: sigma ' + short(formula) + ' \u00b5m.' : '.');
   box.onpointermove = box.onpointerdown = e => { if (!e.buttons) return; const r = box.getBoundingClientRect(), slope = Math.exp((e.clientX - r.left - 36) / (W - 46) * Math.log(25) + Math.log(.02)), sigma = Math.exp((H - 34 - e.clientY + r.top) / (H - 44) * Math.log(250) + Math.log(.02));
     w.slope.set(Math.min(Math.max(slope, .02), .5), true); w.sigma.set(state.lock ? crossing(state.angle, w.slope.value[0], UM) : sigma, true); changed(m); }; box.onpointerup = () => draw(true);
   box.onkeydown = e => { const d = {ArrowRight: 1, ArrowLeft: -1, ArrowUp: 1, ArrowDown: -1}[e.key]; if (!d) return; e.preventDefault(); const k = e.shiftKey ? w.sigma : w.slope; state.lock ||= !e.shiftKey; $('lock').checked = state.lock;
@@ -316,6 +318,14 @@ function chart(ink, rule, A) {
 const words = m => m.law + ' ' + m.knobs.map(k => k.key + '=' + k.value.map(v => short(v, 9)).join(',')).join(' ');
 const documentOf = m => JSON.stringify({schema: 'brdfguide/fit/1', data: {channels: m.knobs.some(k => k.value.length > 1) ? ['R', 'G', 'B'] : ['550 nm'], wavelength_nm: m.knobs.some(k => k.value.length > 1) ? [650, 550, 450] : [550]},
   ranking: [{model: m.law, candidate: m.law, parameters: Object.fromEntries(m.knobs.map(k => [k.key, {value: k.value.length > 1 ? k.value : k.value[0]}]))}], recommended: m.law}, null, 1);
+const yaml = m => { const box = {}, n = {albedo: 'diffuse_reflectance', alpha: 'roughness'};
+  const put = (k, v) => { box[k] ??= v.length > 1 ? '[' + v.map(x => short(x, 7)).join(', ') + ']' : short(v[0], 7); };
+  for (const k of m.knobs) { const end = k.key.split('.').at(-1); if (n[end]) put(n[end], k.value); }
+  const of = end => m.knobs.find(k => k.key.split('.').at(-1) === end), s = of('sigma'), t = of('slope');
+  if (box.roughness) box.in = 'alpha';
+  if (of('n')) { box.kind = of('k') && of('k').value[0] > 0 ? 'metal' : 'dielectric'; box.index = '{n: ' + short(of('n').value[0], 7) + (of('k') && of('k').value[0] > 0 ? ', k: ' + short(of('k').value[0], 7) : '') + '}'; }
+  if (s && t) box.stylus = '{sigma_um: ' + short(s.value[0], 7) + ', tau_um: ' + short(s.value[0] / t.value[0], 7) + '}';
+  return '# of ' + m.law + ', as far as a description goes\n' + Object.entries({name: JSON.stringify(m.name), ...box}).map(e => e.join(': ')).join('\n') + '\n'; };
 function say() {
   const m = S.models[state.a], e = error(m), other = S.models[state.b], f = evaluator(m, 0), at45 = f(...plane(45, 45));
   let half = 0; while (half < 80 && f(...plane(20, Math.min(20 + half, 89))) > .5 * f(...plane(20, 20))) half += .25;
@@ -323,7 +333,7 @@ function say() {
   const fit = e === null ? '' : '; A is typically ' + short(100 * (Math.exp(e) - 1), 2) + ' % off the data (rms ln ' + e.toPrecision(4) + ')' + (other !== m ? ', B rms ln ' + error(other).toPrecision(4) : '');
   $('says').textContent = seen + fit + '.'; canvas.setAttribute('aria-label', seen);
   if (e !== null) root.dataset.rms = e;
-  $('text').value = state.copy === 'json' ? documentOf(m) : state.copy === 'export' ? 'brdfguide export ' + m.knobs.map(k => k.key + '=' + k.value.map(v => short(v, 9)).join(',')).join(' ') + ' --model "' + m.law + '" --to mitsuba -o surface.xml' : words(m);
+  $('text').value = state.copy === 'json' ? documentOf(m) : state.copy === 'yaml' ? yaml(m) : state.copy === 'export' ? 'brdfguide export ' + m.knobs.map(k => k.key + '=' + k.value.map(v => short(v, 9)).join(',')).join(' ') + ' --model "' + m.law + '" --to mitsuba -o surface.xml' : words(m);
 }
 function link() {
   const p = new URLSearchParams({a: state.a, b: state.b, wipe: state.wipe, mode: state.mode, light: state.light, object: state.object, angle: state.angle, lock: +state.lock});
@@ -358,6 +368,7 @@ $('card').textContent = gl ? '' : 'Drawn without the graphics card.';
 $('light').value = state.light; $('mode').value = state.mode; $('object').value = state.object; $('wipe').value = state.wipe; $('angle').value = state.angle; $('lock').checked = state.lock;
 fill(); plot(); say(); draw(true);
 addEventListener('resize', plot);
-root.explorer = {state: S, choice: state, evaluator, values, crossing, error, words, documentOf, twins: TWINS,
+root.explorer = {state: S, choice: state, evaluator, values, crossing, error, words, documentOf, yaml, twins: TWINS,
+  paint: m => { for (const _ of drawn(m, 1)); return root.explorer.pixels(m); },
   pixels: m => { const out = new Float32Array(4 * SIZE * SIZE); gl.bindFramebuffer(gl.FRAMEBUFFER, m.gl.radiance.frame); gl.readPixels(0, 0, SIZE, SIZE, gl.RGBA, gl.FLOAT, out); return out; }};
 })();

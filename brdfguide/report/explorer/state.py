@@ -65,7 +65,7 @@ def explorer_state(shown: Sequence[Turned], measurement: Measurement | None = No
         },
         "lights": {name: render.sun_direction(name).tolist() for name in render.LIGHTS_DEG},
         "table": [render.THETAS, render.ROLLS, render.RINGS, render.SPOKES],
-        "contours": _contours() if any(_wave(surface) for surface in surfaces) else None,
+        "contours": _contours() if any(_on_contour(surface) for surface in surfaces) else None,
         "data": None if measurement is None else _points(measurement),
     }
 
@@ -125,8 +125,9 @@ def _knob(key: str, parameter: Parameter, value, law: Live, stderr: float | None
     }
 
 
-def _wave(surface: ColouredSurface) -> bool:
-    return any({"sigma", "slope"} <= set(term.keys) for term in surface.model.terms)
+def _on_contour(surface: ColouredSurface) -> bool:
+    """Whether a law has a place on a contour: a height and a slope, or facets whose alpha is twice their slope."""
+    return any({"sigma", "slope"} <= set(term.keys) or "alpha" in term.keys for term in surface.model.terms)
 
 
 def _contours() -> dict:

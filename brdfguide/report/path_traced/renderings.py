@@ -9,7 +9,6 @@ from ...data.measurement import Measurement
 from ...fitting import fit
 from ...models.surface import Surface
 from ...physics.colour import luminance
-from ...physics.fresnel import fresnel
 from .. import render
 from ..figures.spheres import noticeable_steps
 from . import meshes
@@ -28,7 +27,6 @@ NEEDS = {3: "rough_aluminium.csv", 6: "rough_plastic.csv", 8: "white_paper.csv",
 GREY = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.3}}
 DARK = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.03}}
 WHITE = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.85}}
-PERFECT = {"type": "conductor", "material": "none"}
 COAT_INDEX = 1.5  # of clear lacquer
 SIZE, SAMPLES = 220, 64  # pixels of a panel's width, paths a pixel
 
@@ -103,13 +101,14 @@ def _aluminium(measurement, size: int, samples: int) -> Rendering:
 
 
 def _stripes(made: Traced) -> float:
-    """Contrast at the posts' period of the plate's rows next to its far edge: (a - b)/(a + b) of a sine."""
-    on = made.body == 0
-    rows = np.flatnonzero(on.mean(axis=1) > 0.9)[: max(4, on.shape[0] // 16)]
-    line = luminance(made.radiance[rows]).mean(axis=0)
-    line = line / line.mean() - 1
-    line -= np.polyval(np.polyfit(np.arange(len(line)), line, 3), np.arange(len(line)))
-    return float(2 * np.abs(np.fft.rfft(line * np.hanning(len(line)))).max() / np.hanning(len(line)).sum())
+    """How much of the posts' contrast their image in the plate has, near its far edge: 1 in a mirror, 0 if matt."""
+    post, plate_ = luminance(made.radiance), made.body == 0
+    rows = np.flatnonzero(plate_.mean(axis=1) > 0.9)
+    skipped, taken = max(1, len(rows) // 30), max(3, len(rows) // 10)  # where both touch any surface shows them
+    standing = np.flatnonzero((made.body > 0).mean(axis=1) > 0.5)  # at edges of posts it is no body
+    seen, image = (post[kept].mean(axis=0) for kept in (standing, rows[skipped : skipped + taken]))
+    seen, image = (line / line.mean() - 1 for line in (seen, image))
+    return float(image @ seen / (seen @ seen))
 
 
 def _ball(radius: float = 1.0) -> Mesh:
@@ -170,7 +169,7 @@ def _pot(size: int, samples: int) -> Rendering:
     index = {"n": 2.87, "k": 3.36}
     rough = Surface(models.get("he-torrance"), {f"he-torrance.{key}": value for key, value in index.items()})
     rough = rough.with_values({"sigma": 0.08, "slope": 0.08 / 1.52})
-    mirror = {"type": "conductor", "eta": index["n"], "k": index["k"]}
+    mirror = exporters.coloured(Surface.named("mirror", index), "mirror")
     sun, camera = Sun(32, 35, (3.5, 3.3, 3.0), radius=0.0046), Camera((0.0, 1.1, 9.0), (-0.05, 0.85, 0.0), 24)
     made = {}
     for name, surface in (("ideal mirror", mirror), ("He-Torrance", exporters.coloured(rough, "steel"))):
@@ -204,17 +203,18 @@ def _sharpness(line: np.ndarray, row: int) -> float:
 
 def _paint(measurement, size: int, samples: int) -> Rendering:
     """The body under the preview's sky: paint as fitted to what lies under the coat; and with the coat's mirror image,
-    which is that of a perfect mirror times Fresnel's reflectance at each pixel's angle.
+    which is that of a clear lacquer's smooth face alone. Both come from our exports, and their light adds.
     """
     under = fitted("lambertian+lafortune", measurement)
+    lacquer = exporters.coloured(Surface.named("mirror", {"n": COAT_INDEX}), "clear coat")
     sun, camera = Sun(38, 40, (4.0, 3.8, 3.4)), Camera((4.6, 2.0, 8.0), (0.0, 0.55, 0.0), 29)
     floor, shape = Body([plate(9, 9, -9, 0.0)], GREY), (int(1.3 * size), int(0.8 * size))
-    paint, mirror = (
+    paint, coat = (
         traced([Body([meshes.car_body()], surface), floor], camera, day, sun, shape, samples)
-        for surface in (under, PERFECT)
+        for surface in (under, lacquer)
     )
     angle, on = _seen_at(paint, camera), paint.body == 0
-    reflected = np.where(on, fresnel(np.cos(np.radians(angle)), COAT_INDEX, 0.0), 0)[..., None] * mirror.radiance
+    reflected = np.where(on[..., None], coat.radiance, 0)
     gain = luminance(reflected)
 
     def share(low, high):
@@ -224,5 +224,5 @@ def _paint(measurement, size: int, samples: int) -> Rendering:
         ("light that the coat adds at 20° to 45°, median", share(20, 45)),
         ("at 75° to 86°, median", share(75, 86)),
     ]
-    panels = [("without the coat", paint.radiance), ("with its Fresnel mirror", paint.radiance + reflected)]
+    panels = [("without the coat", paint.radiance), ("with it", paint.radiance + reflected)]
     return Rendering(panels, claims)

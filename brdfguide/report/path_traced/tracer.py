@@ -1,5 +1,6 @@
 """A scene of meshes with surfaces of ours, as Mitsuba traces it: each surface from the file that `export` writes."""
 
+import ast
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -107,6 +108,10 @@ def _mitsuba():
 def _plugin(surface, file: Path) -> dict:
     if isinstance(surface, dict):
         return surface
+    if all(term.model.mirror is not None for term in surface.model.terms):
+        written = exporters.export("mitsuba-dict", surface).content
+        assert isinstance(written, str)
+        return ast.literal_eval(written.partition("MATERIAL = ")[2])
     made = exporters.export("rgl", surface)
     file.write_bytes(made.content if isinstance(made.content, bytes) else made.content.encode())
     return {"type": "measured", "filename": str(file)}
