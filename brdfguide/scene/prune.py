@@ -9,7 +9,7 @@ What may differ is said by the scene; what was assumed where it is silent is `sc
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
@@ -35,6 +35,7 @@ MOST_WORK = 3e8  # additions to judge all variants of all terms once: some half 
 MOST_SAMPLES = 4  # fresh samples of a picture, until one reproduces the next
 MOST_MORE = 8  # their pixels, times those searched with
 MOST_SURROUNDED = 8000  # pixels for which surroundings are looked up in all directions
+MOST_REFUSED = 3  # named
 PERTURBED = (0.9, 1.1)
 
 
@@ -109,12 +110,23 @@ def prune(
     picture, singles, convergence = _converged(sample, scene, seed)
     progress("leaving parts out")
     ablations = search.ablations(picture)
-    candidates = [*ablations.values(), *search.near_misses(picture, ablations.values())]
+    enough = search.cheapest(picture, ablations.values())
+    candidates = [*ablations.values(), *search.near_misses(picture, ablations.values(), enough)]
     if substitutes:
         progress("trying simpler laws")
-        candidates += search.substituted(picture, candidates)
+        candidates += search.substituted(picture, search.cheapest(picture, candidates))
     progress("checking on fresh directions")
-    pick, fresh, moved, refused = _picked(picture, candidates, ablations, sample, seed, clock)
+    checks = _Checks(picture, ablations, sample, seed, clock)
+    pick, fresh, moved = checks.first_that_stands(candidates)
+    if checks.refused:  # what was tried beside one that does not stand was measured by it
+        beside = search.near_misses(picture, ablations.values(), pick)
+        beside += search.substituted(picture, pick) if substitutes else []
+        candidates += beside
+        pick, fresh, moved = checks.first_that_stands(
+            [each for each in beside if each.work < pick.work], (pick, fresh, moved)
+        )
+    # of one that stands with other shapes it is not said that it does not
+    refused = tuple(each for each in checks.refused if not each.text.startswith(f"{pick} would"))[:MOST_REFUSED]
     progress("timing what is left")
     evaluators = search.evaluator(ablations[NOTHING].surface), search.evaluator(pick.surface)
     rows = search.cost_directions(picture)
@@ -209,44 +221,71 @@ def _singles(picture: Picture) -> dict[Feature, Errors]:
     }
 
 
-def _picked(picture: Picture, candidates, ablations: dict, sample, seed: int, clock):
-    """The cheapest candidate within the tolerance that stands the checks, its errors there, and what was refused."""
-    scene, size, whole = picture.quadrature.scene, len(picture.weights), ablations[NOTHING]
-    # only the pick and the whole are judged now, so that many more pixels can be had, and rare ones are found
-    more = int(np.clip(MOST_WORK / (4 * whole.work * len(search.cost_directions(picture))), 1, MOST_MORE))
-    if picture.quadrature.to_world is not None:
-        more = max(min(more, MOST_SURROUNDED // size), 1)
-    afresh = lru_cache(lambda step: sample(scene, more * size, seed + step))
-    perturbed = lru_cache(lambda factor: sample(scene.scaled(factor), size, seed))
-    tried = set()
-    refused: tuple[Finding, ...] = ()
-    for each in sorted(
-        (each for each in candidates if each.errors.within(scene.tolerance)), key=lambda each: each.work
-    ):
-        each = _worth_it(picture, each, ablations, clock)
-        if each.whole:
-            break
-        if id(each) in tried:
-            continue
-        tried.add(id(each))
-        each, fresh = _reproduced(each, picture, afresh)
-        moved = {
-            factor: check.errors(check.radiance(each.surface)) for factor in PERTURBED if (check := perturbed(factor))
-        }
-        if not fresh.within(scene.tolerance):
-            why = f"{fresh.visible:.2g} at worst and {fresh.p95:.2g} for 95 % of the picture on fresh directions"
-        elif scene.camera_moves and not all(errors.within(scene.tolerance) for errors in moved.values()):
-            why = (
-                f"{max(errors.visible for errors in moved.values()):.2g} at worst with the angles 10 % off, and the "
-                f"camera moves"
-            )
-        else:
-            return each, fresh, moved, refused
-        if len(refused) < 3:
-            refused += (
-                Finding("pruned-refused", f"{each} would do on the drawn directions, but not when checked: {why}"),
-            )
-    return whole, whole.errors, dict.fromkeys(PERTURBED, whole.errors), refused
+@dataclass(frozen=True, eq=False)
+class _Checks:
+    """What a candidate has to stand before it is picked, and those that did not."""
+
+    picture: Picture
+    ablations: dict
+    sample: Callable
+    seed: int
+    clock: Callable
+    refused: list[Finding] = field(default_factory=list)
+    tried: set[int] = field(default_factory=set)
+
+    @property
+    def _whole(self) -> Candidate:
+        return self.ablations[NOTHING]
+
+    def first_that_stands(self, candidates, otherwise: tuple | None = None) -> tuple[Candidate, Errors, Mapping]:
+        """The cheapest candidate within the tolerance that stands the checks, its errors on fresh directions and with
+        the angles moved; the whole, or `otherwise`, where none does."""
+        tolerance = self.picture.tolerance
+        good = (each for each in candidates if each.errors.within(tolerance))
+        for each in sorted(good, key=lambda each: each.work):
+            each = _worth_it(self.picture, each, self.ablations, self.clock)
+            if each.whole:
+                break
+            if id(each) in self.tried:
+                continue
+            self.tried.add(id(each))
+            each, fresh = _reproduced(each, self.picture, self._afresh)
+            moved = self._moved(each)
+            why = self._why_not(fresh, moved)
+            if not why:
+                return each, fresh, moved
+            text = f"{each} would do on the drawn directions, but not when checked: {why}"
+            self.refused.append(Finding("pruned-refused", text))
+        return otherwise or (self._whole, self._whole.errors, dict.fromkeys(PERTURBED, self._whole.errors))
+
+    def _moved(self, each: Candidate) -> dict[float, Errors]:
+        views = {factor: self._perturbed(factor) for factor in PERTURBED}
+        return {factor: view.errors(view.radiance(each.surface)) for factor, view in views.items() if view}
+
+    def _why_not(self, fresh: Errors, moved: Mapping[float, Errors]) -> str:
+        tolerance = self.picture.tolerance
+        if not fresh.within(tolerance):
+            return f"{fresh.visible:.2g} at worst and {fresh.p95:.2g} for 95 % of the picture on fresh directions"
+        if self.picture.quadrature.scene.camera_moves and not all(each.within(tolerance) for each in moved.values()):
+            worst = max(errors.visible for errors in moved.values())
+            return f"{worst:.2g} at worst with the angles 10 % off, and the camera moves"
+        return ""
+
+    @cached_property
+    def _afresh(self) -> Callable[[int], Picture | None]:
+        """The picture sampled afresh. Only the pick and the whole are judged on it, so that many more pixels can be
+        had, and rare ones are found."""
+        picture, size = self.picture, len(self.picture.weights)
+        directions = len(search.cost_directions(picture))
+        more = int(np.clip(MOST_WORK / (4 * self._whole.work * directions), 1, MOST_MORE))
+        if picture.quadrature.to_world is not None:
+            more = max(min(more, MOST_SURROUNDED // size), 1)
+        return lru_cache(lambda step: self.sample(picture.quadrature.scene, more * size, self.seed + step))
+
+    @cached_property
+    def _perturbed(self) -> Callable[[float], Picture | None]:
+        scene, size = self.picture.quadrature.scene, len(self.picture.weights)
+        return lru_cache(lambda factor: self.sample(scene.scaled(factor), size, self.seed))
 
 
 def _reproduced(each: Candidate, picture: Picture, afresh) -> tuple[Candidate, Errors]:

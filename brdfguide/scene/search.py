@@ -107,17 +107,15 @@ def judge(picture: Picture, ablation: Ablation, found: dict[Ablation, Candidate]
     return found.get(ablation)
 
 
-def near_misses(picture: Picture, candidates) -> list[Candidate]:
-    """Ablations cheaper than the cheapest that will do and nearly as good, their shapes refitted as well."""
-    enough = cheapest(picture, candidates)
+def near_misses(picture: Picture, candidates, enough: Candidate) -> list[Candidate]:
+    """Ablations cheaper than one that will do and nearly as good, their shapes refitted as well."""
     near = [each for each in candidates if each.work < enough.work and each.errors.within(picture.tolerance, NEAR_MISS)]
     best = sorted(near, key=lambda each: each.errors.visible)[:MOST_NEAR_MISSES]
     return [judged_whole(picture, each.ablation, substitutes.reshaped(picture, each.surface)) for each in best]
 
 
-def substituted(picture: Picture, candidates) -> list[Candidate]:
-    """Simple lobes in place of those of the cheapest ablation that will do, where they would be cheaper still."""
-    enough = cheapest(picture, candidates)
+def substituted(picture: Picture, enough: Candidate) -> list[Candidate]:
+    """Simple lobes in place of those of a candidate that will do, where they would be cheaper still."""
     lobes = [Feature(term.label) for term in picture.features.terms if not term.model.is_body]
     ablation, found = reduce(Ablation.without, lobes, enough.ablation), []
     for start in substitutes.of(enough.surface, picture.quadrature.width):
