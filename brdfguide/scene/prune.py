@@ -110,21 +110,8 @@ def prune(
     picture, singles, convergence = _converged(sample, scene, seed)
     progress("leaving parts out")
     ablations = search.ablations(picture)
-    enough = search.cheapest(picture, ablations.values())
-    candidates = [*ablations.values(), *search.near_misses(picture, ablations.values(), enough)]
-    if substitutes:
-        progress("trying simpler laws")
-        candidates += search.substituted(picture, search.cheapest(picture, candidates))
-    progress("checking on fresh directions")
     checks = _Checks(picture, ablations, sample, seed, clock)
-    pick, fresh, moved = checks.first_that_stands(candidates)
-    if checks.refused:  # what was tried beside one that does not stand was measured by it
-        beside = search.near_misses(picture, ablations.values(), pick)
-        beside += search.substituted(picture, pick) if substitutes else []
-        candidates += beside
-        pick, fresh, moved = checks.first_that_stands(
-            [each for each in beside if each.work < pick.work], (pick, fresh, moved)
-        )
+    pick, fresh, moved, candidates = _picked(checks, substitutes, progress)
     # of one that stands with other shapes it is not said that it does not
     refused = tuple(each for each in checks.refused if not each.text.startswith(f"{pick} would"))[:MOST_REFUSED]
     progress("timing what is left")
@@ -219,6 +206,25 @@ def _singles(picture: Picture) -> dict[Feature, Errors]:
         for feature, ablation in ablations.items()
         if picture.features.provided(ablation)
     }
+
+
+def _picked(checks: "_Checks", substitutes: bool, progress: Callable[[str], None]):
+    """The cheapest candidate that stands the checks, its errors on fresh directions and with the angles moved, and all
+    candidates."""
+    picture, ablations = checks.picture, checks.ablations.values()
+    candidates = [*ablations, *search.near_misses(picture, ablations, search.cheapest(picture, ablations))]
+    if substitutes:
+        progress("trying simpler laws")
+        candidates += search.substituted(picture, search.cheapest(picture, candidates))
+    progress("checking on fresh directions")
+    pick, fresh, moved = checks.first_that_stands(candidates)
+    if checks.refused:  # by one that does not stand it was measured what else is worth trying
+        beside = search.near_misses(picture, ablations, pick)
+        beside += search.substituted(picture, pick) if substitutes else []
+        cheaper = [each for each in beside if each.work < pick.work]
+        pick, fresh, moved = checks.first_that_stands(cheaper, (pick, fresh, moved))
+        candidates += beside
+    return pick, fresh, moved, candidates
 
 
 @dataclass(frozen=True, eq=False)
