@@ -282,7 +282,9 @@ class _Answer:
 
     picks: tuple  # verdict, domain, sums with start values
     intervals: tuple
-    said: Mapping[str, tuple[str, str]]  # rule -> what it says, and why
+    said: Mapping[
+        str, tuple
+    ]  # rule -> its words: what it says and why, what it needs, which models it is for and against
     set_aside: tuple[str, ...]
 
 
@@ -295,6 +297,6 @@ def _answer(described: Material) -> _Answer:
     return _Answer(
         (_verdict(filled, advice)[0], _status(advice), starts),
         tuple((each.name, tuple(each.numbers.items())) for each in found.laws) if found else (),
-        {each.rule: (each.says, each.because) for each in advice},
+        {each.rule: (each.says, each.because, each.needs, each.why, each.drops) for each in advice},
         tuple(found.set_aside) if found else (),
     )

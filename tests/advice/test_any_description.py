@@ -58,6 +58,13 @@ def _as_a_shader_has_it(given: dict, rng) -> dict:
     return {key: each for key, each in given.items() if key not in dropped}
 
 
+def test_an_observation_that_answers_what_a_rule_needs_is_not_without_effect_seed_10052():
+    """A streak's width: without it the rule says what it needs, and nothing else changes."""
+    made = material.parse_material(json.dumps(drawn(10_052)))
+    assert recommend.recommend(made, anyway=True).effects["highlight_width_deg"] == "confirms"
+    assert not list(faults(made))
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_it_is_answered_or_refused_in_words_seed(seed):
     try:

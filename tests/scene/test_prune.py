@@ -333,8 +333,9 @@ def test_straying_camera_is_told_and_a_moving_one_is_obeyed():
     result = prune("coupled+he-torrance", ROUGH_PLASTIC, "frontal_product_shot")
     assert "scene-may-stray" in [f.code for f in result.findings]
     moving = prune("coupled+he-torrance", ROUGH_PLASTIC, "frontal_product_shot", camera_moves=True)
-    assert max(errors.visible for errors in moving.moved.values()) <= 1
-    assert "he-torrance.fresnel" not in out(moving)
+    astray, obeyed = (max(errors.visible for errors in each.moved.values()) for each in (result, moving))
+    assert astray > 1 >= obeyed
+    assert cost.work(moving.operations[1]) > cost.work(result.operations[1])
 
 
 def test_budget_that_cannot_be_kept_is_told():
