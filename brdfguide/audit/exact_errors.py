@@ -18,6 +18,7 @@ LIMIT_DEG = 80  # beyond, S does not look
 APART_DEG = 0.25  # between two incidences of scans
 HELD_DEG = 1.0  # how far an incidence wanders that was held
 MOST_SCANS = 64  # with more incidences the order alone cuts blocks
+TILTED_DEG, MOST_TURNS = 1.0, 64  # incidence at which light has an azimuth; more of these are no turns of the sample
 PIECES = 8  # blocks of one incidence
 
 
@@ -185,7 +186,7 @@ def exact_behind(one: list[list], best: list[list], data: Readings) -> tuple[mpf
     share = fsum(b * (a - b) for row in pairs for a, b in row) / power
     sums: dict = defaultdict(mpf)
     leverage: dict = defaultdict(mpf)
-    for block, row in zip(_blocks(data), pairs, strict=True):
+    for block, row in zip(neighbours_of_scans(data), pairs, strict=True):
         for a, b in row:
             sums[block] += 2 * (a - b) * (b - share * (a - b))
             leverage[block] += (a - b) ** 2 / power
@@ -195,14 +196,18 @@ def exact_behind(one: list[list], best: list[list], data: Readings) -> tuple[mpf
     return power * (1 + 2 * share) / count / total, student * spread / count / total
 
 
-def _blocks(data: Readings) -> list[int]:
-    """Which neighbours along a scan err together."""
-    theta = [_tenth(each[0]) for each in data.angles]
+def neighbours_of_scans(data: Readings) -> list[int]:
+    """Which neighbours along a scan err together: a number for each row."""
+    turn, theta = _turns(data), [_tenth(each[0]) for each in data.angles]
     azimuth = [_tenth(abs((each[3] - each[1] + 180) % 360 - 180)) for each in data.angles]
-    order = sorted(range(len(theta)), key=lambda place: (theta[place], azimuth[place], data.signed_theta_r[place]))
-    groups = defaultdict(list)
+    keys = list(zip(turn, theta, azimuth, data.signed_theta_r, strict=True))
+    order = sorted(range(len(theta)), key=lambda place: keys[place])
+    groups: dict[int, list[int]] = defaultdict(list)
+    number, before = 0, theta[order[0]]
     for place in order:
-        groups[theta[place]].append(place)
+        number += theta[place] != before
+        before = theta[place]
+        groups[number].append(place)
     blocks = [0] * len(order)
     pieces = min(max(len(order) // 50, 4 * PIECES), 256)
     if len(groups) > MOST_SCANS:
@@ -214,6 +219,16 @@ def _blocks(data: Readings) -> list[int]:
         for rank, place in enumerate(members):
             blocks[place] = number * each + rank * each // len(members)
     return blocks
+
+
+def _turns(data: Readings) -> list[int]:
+    """The number of the azimuth of the light at each row, to a degree, half a turn being none; 0 throughout where the
+    sample was not turned, or was not held."""
+    azimuth = [round(phi_i) % 180 for _, phi_i, _, _ in data.angles]
+    known = sorted({turn for turn, each in zip(azimuth, data.angles, strict=True) if each[0] > TILTED_DEG})
+    if not 2 <= len(known) <= MOST_TURNS:
+        return [0] * len(azimuth)
+    return [min(sum(each < turn for each in known), len(known) - 1) for turn in azimuth]
 
 
 @dataclass(frozen=True, eq=False)

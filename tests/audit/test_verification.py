@@ -14,10 +14,12 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 from mpmath import mp, mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_followers, exact_surface, textbook_more, verification
+from brdfguide.audit import exact_errors, exact_followers, exact_surface, textbook_more, verification
 from brdfguide.audit.rederived import Comparisons
 from brdfguide.data.formats.format import InputError
+from brdfguide.data.measurement import Measurement
 from brdfguide.face.functions import fit
+from brdfguide.fitting.diagnostics import standard_errors
 from brdfguide.fitting.off_plane_price import DOUBT, IN_PLANE
 from brdfguide.models.surface import Surface
 from brdfguide.physics.geometry import Geometry, rows
@@ -248,3 +250,19 @@ def test_the_command_ends_with_1_where_a_digit_was_changed_and_2_for_no_answer(t
     assert run("verify", str(tmp_path / "none.json")).returncode == 2
     wrong = run("verify", str(tmp_path / "fit.json"), "--model", "wrad")
     assert wrong.returncode == 2 and "no fitted model called 'wrad'" in wrong.stderr
+
+
+@pytest.mark.parametrize("turns", [[0.0], [0.0, 90.0, 45.0], [10.0, 190.0, 100.0]])
+@pytest.mark.parametrize("incidences", [[30.0], [0.0, 20.0, 50.0]])
+def test_neighbours_of_a_turned_samples_scans_are_those_of_the_fit(turns, incidences):
+    turn, theta_i, theta_r = (each.ravel() for each in np.meshgrid(turns, incidences, np.arange(-80.0, 81.0, 4.0)))
+    phi_r = turn + np.where(theta_r < 0, 0.0, 180.0)
+    measurement = Measurement(
+        rows(Geometry.from_degrees(theta_i, turn, np.abs(theta_r), phi_r)), np.ones((len(turn), 1))
+    )
+    angles = tuple(zip(theta_i.tolist(), turn.tolist(), np.abs(theta_r).tolist(), phi_r.tolist(), strict=True))
+    data = exact_errors.Readings(angles, ((1.0,),) * len(turn), (0.0,), (0.55,))
+    wanted = standard_errors.blocks_of(measurement, standard_errors.along_scans(measurement))
+    together = np.array(exact_errors.neighbours_of_scans(data))
+    assert len(set(zip(together.tolist(), wanted.tolist(), strict=True))) == len(set(wanted.tolist()))
+    assert len(set(together.tolist())) == len(set(wanted.tolist()))
