@@ -159,6 +159,8 @@ def furnished(page: Path, folder: Path, path: str) -> None:
         if name.partition("/")[0] in text or name == "scan.csv":
             (folder / name).parent.mkdir(exist_ok=True)
             shutil.copy(folder / "examples" / example, folder / name)
+    if "list.txt" in text:
+        (folder / "list.txt").write_text("scan.csv\n")
     if "scans" in text:
         (folder / "scans").mkdir()
         for name in ("rough_plastic.csv", "white_paper.csv"):
