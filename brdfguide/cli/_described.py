@@ -79,8 +79,6 @@ def answered_description(words: list[str]) -> int | None:
         return None
     from ..advice import recommend as advisor
     from ..report.documents import recommendation
-    from ..report.text.folding import page
-    from ..report.text.recommendation import text
 
     try:
         described, measured = sort_inputs([named])
@@ -94,6 +92,9 @@ def answered_description(words: list[str]) -> int | None:
     if "--json" in switches:
         say(json_text(document))
     else:
+        from ..report.text.folding import page
+        from ..report.text.recommendation import text
+
         shown = text(printable.document(document), explain, "--full" in switches)
         surfaces = [] if "--no-numbers" in switches else [each.surface for each in answer.candidates]
         say(page(shown + numbers_in_words(surfaces, document)))

@@ -96,7 +96,7 @@ def all_errors(residuals, measurement: Measurement, sample_weights=None) -> dict
     known = np.isfinite(residuals)
     data = np.where(known, measurement.brdf, np.nan)
     third = np.exp(np.minimum(residuals, 300.0) / 3)
-    ratio = third**3
+    ratio = third * third * third
     cosine = measurement.geom.cos_i * measurement.geom.cos_r
 
     def root(values):

@@ -52,7 +52,7 @@ def by_products(g, y):
     first, last = _window(top, width)
     first, steps = first.min(axis=(1, 2)), -(-(last.max(axis=(1, 2)) - first.min(axis=(1, 2))) // STEP)
     out = np.empty((*g.shape, y.shape[1]))
-    for each in np.unique(steps):
+    for each in sorted({*steps.ravel().tolist()}):  # NumPy's own `unique` loads its masked arrays
         part = np.flatnonzero(steps == each)
         m = first[part, None] + np.arange(STEP * each)
         middle_g, middle_y = np.sqrt(g[part, :1] * g[part, -1:]), 0.5 * (y[part, :1] + y[part, -1:])

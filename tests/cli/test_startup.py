@@ -1,5 +1,6 @@
 """What each command may load. Seconds and instructions depend on the machine; the list of loaded modules does not."""
 
+import ast
 import subprocess
 import sys
 from functools import cache
@@ -100,6 +101,13 @@ def test_loads_only_what_it_uses(line, tmp_path):
     status, *loaded = run.stdout.rpartition("LOADED ")[2].split()
     assert status == "0", run.stderr
     assert not (set(loaded) - before_anything()) & set(MAY_NOT_LOAD[line])
+
+
+def test_what_was_loaded_is_not_searched_for_rubbish_again_and_again():
+    looked = "from brdfguide.cli import main\nimport gc\ntry:\n    main()\nfinally:\n    print(gc.get_stats())"
+    words = [sys.executable, "-c", looked, "recommend", "porcelain", "--quiet"]
+    out = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False).stdout
+    assert sum(each["collections"] for each in ast.literal_eval(out.splitlines()[-1])) < 30  # 71 without
 
 
 @pytest.mark.parametrize("command", catalog.names("cli"))

@@ -86,17 +86,18 @@ def _pieces(count: int) -> int:
 def serial_correlation(residuals: np.ndarray, orders) -> tuple[float, float]:
     """Largest lag-one correlation of residuals (samples, channels; NaN missing) over the orders, and its z-score."""
     worst, score = 0.0, 0.0
+    complete = np.isfinite(residuals).all()
     for order in orders:
-        along = residuals[order]
-        ahead, behind = along[1:], along[:-1]
-        both = np.isfinite(ahead + behind)
-        if not both.all():
+        along = residuals.take(order, axis=0)
+        ahead, behind = along[1:].ravel(), along[:-1].ravel()
+        if not complete:
+            both = np.isfinite(ahead + behind)
             ahead, behind = ahead[both], behind[both]
         count = ahead.size
         if count < 8:
             continue
-        power = 0.5 * (np.mean(ahead**2) + np.mean(behind**2))
-        correlation = float(np.mean(ahead * behind) / power) if power > 0 else 0.0
+        power = 0.5 * (ahead @ ahead + behind @ behind)
+        correlation = float(ahead @ behind / power) if power > 0 else 0.0
         if correlation > worst:
             # channels that err together count once
             worst, score = correlation, correlation * sqrt(count / common_channels(residuals))
@@ -108,7 +109,8 @@ def common_channels(residuals: np.ndarray) -> float:
     channels = residuals.shape[1]
     if channels == 1:
         return 1.0
-    filled = np.where(np.isfinite(residuals), residuals, 0.0)
+    finite = np.isfinite(residuals)
+    filled = residuals if finite.all() else np.where(finite, residuals, 0.0)
     squares = filled.T @ filled
     scale = np.sqrt(np.maximum(np.diag(squares), 1e-300))
     correlation2 = (squares / np.outer(scale, scale)) ** 2
