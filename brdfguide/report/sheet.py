@@ -25,9 +25,9 @@ a{color:var(--accent)}
 .answer strong{font-size:1.5rem;line-height:1.2;display:block}
 .wide{overflow-x:auto;margin:.6rem 0}
 table{border-collapse:collapse;font-size:.9rem}
-th,td{padding:.25rem .7rem .25rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
+th,td{padding:.25rem .5rem .25rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--rule)}
 th{font-weight:600}
-td:last-child{overflow-wrap:anywhere}
+td:last-child{overflow-wrap:break-word;min-width:6.2rem}
 td.n,th.n{text-align:right}td.n{font-variant-numeric:tabular-nums;white-space:nowrap}
 td:nth-child(2){white-space:nowrap}
 tr.pick td{font-weight:600}
@@ -42,6 +42,8 @@ figure{margin:1rem 0}
 figure svg{display:block;width:100%;height:auto;min-width:34rem}
 figure img{display:block;max-width:100%;height:auto}
 figcaption{font-size:.88rem;margin-top:.3rem}
+@media screen and (max-width:36rem){
+ figure:has(svg) figcaption::before{content:"Wider than the screen: swipe it sideways. "}}
 nav{font-size:.9rem;margin:.8rem 0}
 nav a{margin-right:.9rem;white-space:nowrap}
 dl{display:grid;grid-template-columns:minmax(7rem,max-content) 1fr;gap:.2rem 1rem;font-size:.92rem}
