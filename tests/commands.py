@@ -35,6 +35,7 @@ STANDS_FOR = {  # a word in capitals, or what a text would fill in -> one that i
     "CODE": "discrepancy",
     "RULE": "usual_dielectric_index",
     "models NAME": "models ward",
+    "check NAME": "check ward",
     "materials NAME": "materials porcelain",
     "preview NAME": "preview porcelain",
     "schema NAME": "schema fit",

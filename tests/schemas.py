@@ -258,7 +258,9 @@ def shape(values: list, key: str = "", within: str = "") -> dict:
     objects = [value for value in values if isinstance(value, dict)]
     if objects and (key in MAPS or any(_is_data(name) for each in objects for name in each)):
         inside = [item for each in objects for item in each.values()]
-        free = shape(inside) if inside else True
+        free: dict | bool = shape(inside) if inside else True
+        if key == "numbers" and within == "finding" and free == {"type": "number"}:
+            free = {"type": ["null", "number"]}  # where one has no bound
         made["additionalProperties"] = NUMBERS if key == "written" else free
     elif objects:
         names = dict.fromkeys(name for each in objects for name in each)
