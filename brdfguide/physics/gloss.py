@@ -84,6 +84,64 @@ def closed_form(angle: int, alpha: float, n: float) -> float:
     )
 
 
+# Gauss and Legendre's nodes from 0 on and their weights, as `numpy.polynomial` has them: it takes as long to load as a
+# fiftieth of the answer to a description
+GAUSS_LEGENDRE = {
+    2: (
+        (0.5773502691896257,),
+        (1.0,),
+    ),
+    4: (
+        (
+            0.33998104358485626,
+            0.8611363115940526,
+        ),
+        (
+            0.6521451548625464,
+            0.34785484513745357,
+        ),
+    ),
+    11: (
+        (
+            0.0,
+            0.26954315595234496,
+            0.5190961292068118,
+            0.7301520055740494,
+            0.8870625997680953,
+            0.978228658146057,
+        ),
+        (
+            0.2729250867779005,
+            0.26280454451024654,
+            0.23319376459199057,
+            0.1862902109277343,
+            0.12558036946490433,
+            0.05566856711617393,
+        ),
+    ),
+    14: (
+        (
+            0.10805494870734367,
+            0.31911236892788974,
+            0.5152486363581541,
+            0.6872929048116855,
+            0.827201315069765,
+            0.9284348836635735,
+            0.9862838086968124,
+        ),
+        (
+            0.21526385346315793,
+            0.20519846372129572,
+            0.18553839747793788,
+            0.15720316715819363,
+            0.12151857068790331,
+            0.08015808715975999,
+            0.03511946033175175,
+        ),
+    ),
+}
+
+
 @lru_cache(maxsize=2 * len(ANGLES))
 def receptor_directions(angle: int, lamp_nodes: int = 4, nodes: int = 14) -> tuple[Geometry, np.ndarray]:
     """Lamp and receptor directions, rows of one column, and their weights: cos θr dω, averaged over the lamp.
@@ -93,7 +151,7 @@ def receptor_directions(angle: int, lamp_nodes: int = 4, nodes: int = 14) -> tup
     """
     theta = radians(angle)
     lamp, receptor = [radians(size) / 2 for size in LAMP_DEG], [radians(size) / 2 for size in RECEPTOR_DEG[angle]]
-    at, w = np.polynomial.legendre.leggauss(lamp_nodes)
+    at, w = _gauss_legendre(lamp_nodes)
     light, detector, weight = [], [], []
     for a, wa in zip(at, w, strict=True):
         for b, wb in zip(at, w, strict=True):
@@ -108,6 +166,15 @@ def receptor_directions(angle: int, lamp_nodes: int = 4, nodes: int = 14) -> tup
     return geom, np.concatenate(weight)[:, None] * np.maximum(geom.cos_r, 0.0)
 
 
+def _gauss_legendre(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes over -1..1, ascending, and weights."""
+    if count not in GAUSS_LEGENDRE:
+        return np.polynomial.legendre.leggauss(count)
+    x, weights = map(np.array, GAUSS_LEGENDRE[count])
+    below = slice(None, 0 if count % 2 else None, -1)  # an odd rule has its middle once
+    return np.concatenate((-x[below], x)), np.concatenate((weights[below], weights))
+
+
 def _direction(theta, across, side):
     """Unit vector at `theta` in the plane of incidence and `across` out of it; side -1 the lamp's, 1 the receptor's."""
     return side * np.sin(theta) * np.cos(across), np.sin(across), np.cos(theta) * np.cos(across)
@@ -115,7 +182,7 @@ def _direction(theta, across, side):
 
 def _crowded(low: float, high: float, centre: float, nodes: int, scale: float = 1e-3):
     """Gauss-Legendre nodes in u on both sides of `centre`, with x = centre ± scale sinh u."""
-    at, w = np.polynomial.legendre.leggauss(nodes)
+    at, w = _gauss_legendre(nodes)
     x, weights = [], []
     for end in (low, high):
         extent = np.arcsinh(abs(end - centre) / scale)

@@ -132,3 +132,11 @@ def test_ward_cannot_read_as_a_real_surface_at_85_degrees():
     real = gloss.facet_units(85, 0.05, 1.5)
     ward = float(gloss.units(lambda geom: models.term("ward")(geom, rho_s=0.04, alpha=0.05), 85)[0])
     assert ward < real / 10
+
+
+@pytest.mark.parametrize("count", gloss.GAUSS_LEGENDRE)
+def test_the_kept_rules_are_those_of_numpy(count):
+    x, weights = np.polynomial.legendre.leggauss(count)
+    half, their_weights = gloss.GAUSS_LEGENDRE[count]
+    np.testing.assert_allclose(half, x[count // 2 :], rtol=1e-15, atol=1e-16)
+    np.testing.assert_allclose(their_weights, weights[count // 2 :], rtol=1e-13)
