@@ -55,7 +55,8 @@ class NoiseModel:
         """rms of ln by which the values (samples, channels) scatter that are `told`."""
         if not any(self.absolute):
             return self.relative or 0.0
-        dim = np.mean((np.array(self.absolute) / brdf)[told] ** 2)
+        brdf, absolute = np.broadcast_arrays(brdf, self.absolute)
+        dim = np.mean((absolute[told] / brdf[told]) ** 2)
         return float(np.hypot(self.relative or 0.0, np.sqrt(dim)))
 
     def weighing(self, brdf) -> "NoiseModel":

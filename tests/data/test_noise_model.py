@@ -6,7 +6,7 @@ import pytest
 from brdfguide import models
 from brdfguide.data import examine, formats, noise
 from brdfguide.data.measurement import Measurement
-from brdfguide.data.noise_model import two_parts
+from brdfguide.data.noise_model import NoiseModel, two_parts
 from brdfguide.physics.geometry import in_plane, rows
 
 from .. import synthetic
@@ -111,3 +111,10 @@ def test_no_other_dim_values_are(measurement):
 @pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.csv")), ids=lambda path: path.stem)
 def test_no_example_stands_on_a_detectors_floor(path):
     assert noise.detector_floor(formats.read(path)) == 0.0
+
+
+def test_values_of_nothing_are_left_out_of_what_is_expected_of_the_others():
+    """Found by the fuzz: 0.01 over 1e-320 has no number."""
+    values = np.array([[1e-320], [0.5], [1.0]])
+    found = NoiseModel(0.1, (0.01,), (0.0,), (0.0,)).expected(values, values > 0.1)
+    assert found == pytest.approx(np.sqrt(0.1**2 + (0.02**2 + 0.01**2) / 2), rel=1e-12)
