@@ -39,4 +39,4 @@ def test_under_a_coat_too_a_target_without_a_grain_refuses_it():
     for name in ("ggx-aniso", "coated:ggx-aniso"):
         surface = ColouredSurface(models.get(name), {"ggx-aniso.alpha_y": 0.05})
         with pytest.raises(NoAnswer, match="ggx-aniso changes as the sample turns: it has a grain"):
-            exporters.export("fred", surface)
+            exporters.export("lighttools", surface)

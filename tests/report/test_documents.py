@@ -14,6 +14,7 @@ from brdfguide.report.text import (
     indices,
     inspection,
     neutrals,
+    numbers,
     pruned,
     ranking,
     recommendation,
@@ -24,12 +25,14 @@ from ..conftest import ROOT
 from ..test_house import FILES, imports
 
 
-def with_next(document: dict) -> str:
-    return f"{ranking.ranking_text(document)}\n\n{ranking.next_text(document['next'])}"
+def fitted(document: dict) -> str:
+    found = f"\n\n{ranking.next_text(document['next'])}" if "next" in document else ""
+    return f"{ranking.ranking_text(document)}{found}\n\n{numbers.card_text(document['numbers'])}"
 
 
-def in_a_scene(document: dict) -> str:
-    return f"{recommendation.text(document)}\n\n{pruned.text(document['scene'])}"
+def recommended(document: dict, explain: bool = False) -> str:
+    scene = f"\n\n{pruned.text(document['scene'])}" if "scene" in document else ""
+    return f"{recommendation.text(document, explain=explain)}{scene}\n\n{numbers.card_text(document['numbers'])}"
 
 
 RUN = [sys.executable, "-m", "brdfguide"]
@@ -38,11 +41,12 @@ SAID = {
     "roughness --angle 80": emergence.text,
     "roughness --sigma-um 0.5 --tau-um 5": emergence.text,
     "inspect examples/rough_plastic.csv": inspection.text,
-    "fit examples/rough_aluminium.csv --no-timing": ranking.ranking_text,
-    "fit examples/rough_aluminium.csv --no-timing --next -m lambertian+ggx,lambertian+ward": with_next,
-    "recommend porcelain --no-timing --scene default": in_a_scene,
-    "recommend porcelain --no-timing --explain": lambda document: recommendation.text(document, explain=True),
-    "recommend satin-chrome --no-timing": recommendation.text,
+    "fit examples/rough_aluminium.csv --no-timing --numbers": fitted,
+    "fit examples/rough_aluminium.csv --no-timing --numbers --next -m lambertian+ggx,lambertian+ward": fitted,
+    "recommend porcelain --no-timing --numbers --scene default": recommended,
+    "recommend porcelain --no-timing --numbers --explain": lambda document: recommended(document, explain=True),
+    "recommend satin-chrome --no-timing --numbers": recommended,
+    "recommend satin-chrome --no-timing --no-numbers": recommendation.text,
     "index brass": indices.text,
     "gloss --at-60 80": glossmeter.readings_text,
     "gloss --alpha 0.2": glossmeter.lobes_text,

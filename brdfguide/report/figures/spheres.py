@@ -114,7 +114,8 @@ def _font(name: str):
     """One of the fonts that matplotlib brings, which is not imported for it."""
     found = find_spec("matplotlib")
     assert found is not None and found.origin is not None
-    return ImageFont.truetype(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / name, LETTER_HEIGHT)
+    place = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / name
+    return ImageFont.truetype(str(place), LETTER_HEIGHT)  # older versions of Pillow take no Path
 
 
 def noticeable_steps(first, other) -> np.ndarray:
