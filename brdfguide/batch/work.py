@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import expm1
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -12,7 +11,7 @@ from ..face.beyond import Beyond, add_beyond
 from ..face.functions import answered
 from ..fitting.job import Job, case
 from ..opening import Held
-from ..report.text.values import off_words
+from ..report.text.values import off_words, off_words_of
 from .keys import canonical
 from .products import Product, make
 
@@ -91,7 +90,7 @@ class FitWork:
             best["candidate"],
             off_words(best["off_percent"]),
             "-" if best["seen"] is None else f"{best['seen']:.1f}",
-            "-" if held is None else off_words(100 * expm1(min(held, 50.0))),
+            "-" if held is None else off_words_of(held),
         )
 
 

@@ -1,7 +1,6 @@
 """`brdfguide recommend INPUT...`: a model with parameters for a described surface, a measured one, or both."""
 
 from dataclasses import dataclass
-from math import expm1
 from typing import Annotated
 
 from typer import Argument, Context, Exit, Option
@@ -141,7 +140,7 @@ def _for_target(answers, name: str) -> tuple[list, list[dict]]:
     from ..exporters import coloured, held_best, statement_document
     from ..face.surfaces import every_candidate
     from ..report.documents.plain import plain
-    from ..report.text.values import off_words
+    from ..report.text.values import off_words_of
 
     headed: list = []
     blocks: list[dict] = []
@@ -152,7 +151,7 @@ def _for_target(answers, name: str) -> tuple[list, list[dict]]:
             continue
         shown = [coloured(each, answer.material.name or "surface") for each in every_candidate(answer)]
         taken, made = held_best(name, shown)
-        first, off = answer.candidates[0].model.name, off_words(100 * expm1(min(made.statement.rms_ln, 50.0)))
+        first, off = answer.candidates[0].model.name, off_words_of(made.statement.rms_ln)
         if taken.model.name != first:
             why = f"{name} holds it, {off} off; without --as {first} comes first"
             answer = answer.headed_by(taken.model.name, why)

@@ -1,7 +1,6 @@
 """`brdfguide search DIR 'satin, kind=dielectric'`: surfaces among many answers, by words, numbers and looks."""
 
 from dataclasses import dataclass
-from math import expm1
 from pathlib import Path
 from typing import Annotated
 
@@ -105,7 +104,7 @@ def _entry(row: dict, near=None) -> dict:
 
 def _table(found: list[dict]) -> str:
     from ..report.text.table import columns
-    from ..report.text.values import off_words
+    from ..report.text.values import off_words_of
 
     if not found:
         return "nothing matches"
@@ -113,7 +112,7 @@ def _table(found: list[dict]) -> str:
     lines = []
     for each in found:
         rms = each["rms_ln"]
-        off = "-" if rms is None else off_words(100 * expm1(min(rms, 50.0)))
+        off = "-" if rms is None else off_words_of(rms)
         line = [_cell(each[name]) for name in ("file", "recommended", "gloss60", "albedo")]
         lines.append([*line, off, *([_cell(each["seen_from"])] if near else [])])
     header = ("file", "recommended", "gloss60", "albedo", "off", *(("L* away",) if near else ()))

@@ -13,11 +13,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from .. import catalog
 from ..physics.fresnel import f0, index_from_f0
 from ._choice import has_body
 from ._grained import axis_of
-from ._nodes import Node
+from ._nodes import Node, node_called
 from .exporter import ColouredSurface
 
 MOST = 0.9  # of 1 - (alpha along/alpha across)
@@ -57,7 +56,7 @@ BODY, METAL = "standard-surface", "openpbr"
 def node_for(surface: ColouredSurface) -> Node:
     """The shader of another program itself where no grain, coat or weight of a lobe tells them apart."""
     target = BODY if has_body(surface) else METAL
-    node = _node(target)
+    node = node_called(target)
     apart = (
         axis_of(surface) is not None or surface.has_mirror or any(each.model.is_coat for each in surface.model.terms)
     )
@@ -69,14 +68,10 @@ def node_for(surface: ColouredSurface) -> Node:
     return _with_its_own(target) if apart else node
 
 
-def _node(target: str) -> Node:
-    return catalog.load("exporters", target).NODE
-
-
 @lru_cache(maxsize=2)
 def _with_its_own(target: str) -> Node:
     """Its widths, its coat that does not darken; a lobe is there or not, and only its index says how high it is."""
-    node, parameters = _node(target), []
+    node, parameters = node_called(target), []
     for p in node.law.parameters:
         if p.name == "coat_darkening":
             p = replace(p, default=0.0)

@@ -12,6 +12,7 @@ from math import exp, expm1
 
 import numpy as np
 
+from .. import catalog
 from ..models.model import Model, Parameter
 from ..physics import grain, microfacet
 from ..physics.geometry import Geometry, rows
@@ -175,6 +176,11 @@ class Node:
             free = ("base_color", self.edge, self.roughness, *coat)
             found["edged metal under a coat"] = self.target(free, **{self.metalness: 1.0}, **mirror)
         return found
+
+
+def node_called(target: str) -> Node:
+    """The shader's node of the export target of that name."""
+    return catalog.load("exporters", target).NODE
 
 
 def _coats_index(surface: ColouredSurface) -> float | None:

@@ -10,11 +10,10 @@ from math import pi
 
 import numpy as np
 
-from .. import catalog
 from ..physics.colour import hex_of
 from . import _blender, _principled, _substance, _unreal
 from ._choice import Choice
-from ._nodes import Node
+from ._nodes import Node, node_called
 from .exporter import ColouredSurface
 
 AS_TURNS = 1 / (2 * pi)
@@ -37,10 +36,6 @@ class Program:
     retyped: Callable[[Mapping], Mapping] = dict  # values of the law -> those of the program
 
 
-def _node(target: str) -> Node:
-    return catalog.load("exporters", target).NODE
-
-
 def _as_named(*names: str, **spelt: str) -> dict[str, str]:
     """Fields that are called as the law's parameters are, and those that are not."""
     return {name: name for name in names} | spelt
@@ -61,7 +56,7 @@ PROGRAMS = (
     Program(
         "Arnold, Maya, Houdini",
         "standard_surface",
-        lambda _: _node("standard-surface"),
+        lambda _: node_called("standard-surface"),
         _as_named(
             *("base_color", "metalness", "specular", "specular_color", "specular_roughness", "specular_anisotropy"),
             *("coat", "coat_roughness"),
@@ -75,7 +70,7 @@ PROGRAMS = (
     Program(
         "OpenPBR",
         "open_pbr_surface",
-        lambda _: _node("openpbr"),
+        lambda _: node_called("openpbr"),
         _as_named(
             *("base_color", "base_metalness", "specular_weight", "specular_color", "specular_roughness"),
             *("specular_roughness_anisotropy", "specular_ior", "coat_weight", "coat_roughness", "coat_ior"),
@@ -123,7 +118,7 @@ PROGRAMS = (
     Program(
         "glTF, three.js",
         "metallic-roughness",
-        lambda _: _node("gltf"),
+        lambda _: node_called("gltf"),
         {
             "base_color": "baseColor",
             "metallic": "metallic",
@@ -155,7 +150,7 @@ PROGRAMS = (
 def node_of(law: str) -> Node | None:
     """The shader of a law by its name; None where the law is no shader with a node."""
     if law in ("openpbr", "standard-surface", "gltf"):
-        return _node(law)
+        return node_called(law)
     return {each.law.name: each for each in (_unreal.NODE, _substance.NODE, _principled.NODE)}.get(law)
 
 

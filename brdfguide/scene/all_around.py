@@ -11,6 +11,7 @@ for one pixel in a hundred, and everything stays linear in it.
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 
@@ -47,22 +48,29 @@ class AllAround:
     to_world: np.ndarray | None  # (pixels, 3, 3), or nothing where the light is even
     width: float  # of the narrowest lobe [rad]
     fewer: bool = False
+    angles: ClassVar[int] = NODES
+    rings_and_spokes: ClassVar = (RINGS, SPOKES), (FEWER_RINGS, FEWER_SPOKES)
 
     @cached_property
     def half_vectors(self) -> tuple[np.ndarray, np.ndarray]:
         """Half vectors (points, 3) in the frame whose first axis points to the camera's side, and 4 dωh of each."""
-        return half_vectors(self.width, *((FEWER_RINGS, FEWER_SPOKES) if self.fewer else (RINGS, SPOKES)))
+        return half_vectors(self.width, *self.rings_and_spokes[self.fewer])
 
     @cached_property
     def nodes(self) -> np.ndarray:
         """Angles of view [rad], closer together toward grazing."""
-        return np.radians(89.5 * np.sin(np.linspace(0, pi / 2, NODES)))
+        return np.radians(89.5 * np.sin(np.linspace(0, pi / 2, self.angles)))
+
+    @property
+    def views(self) -> np.ndarray:
+        """Unit vectors to the camera at which the law is tabulated, (nodes, 3)."""
+        return sphere.from_angles(np.cos(self.nodes), 0.0)
 
     @cached_property
     def tabulated(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
-        """The lit directions (rows, 1) of the table, cos θi cos θr of each, and its place in (nodes, points)."""
+        """The lit directions (rows, 1) of the table, cos θi cos θr of each, and its place in (*views, points)."""
         half, _ = self.half_vectors
-        camera = sphere.from_angles(np.cos(self.nodes), 0.0)[:, None, :]
+        camera = self.views[..., None, :]
         along = sphere.dot(half, camera)
         light = 2 * along[..., None] * half - camera
         lit = np.flatnonzero((along > 0) & (light[..., 2] > 0))

@@ -14,8 +14,8 @@ from math import pi
 import numpy as np
 
 from ..numerics import sphere
-from ..physics.geometry import Geometry, rows
-from .all_around import BLOCK, AllAround, half_vectors
+from ..physics.geometry import Geometry
+from .all_around import BLOCK, AllAround
 
 RINGS, SPOKES = 24, 36  # of half vectors
 FEWER_RINGS, FEWER_SPOKES = 14, 20  # while shapes are searched
@@ -28,33 +28,19 @@ ASKED = 32  # one direction of so many stands for what a law costs
 class GrainedAround(AllAround):
     """The same quadrature with a table over the azimuth of the view as well; azimuths are those of the sample."""
 
-    @cached_property
-    def nodes(self) -> np.ndarray:
-        """Angles of view [rad], closer together toward grazing."""
-        return np.radians(89.5 * np.sin(np.linspace(0, pi / 2, ANGLES)))
+    angles = ANGLES
+    rings_and_spokes = (RINGS, SPOKES), (FEWER_RINGS, FEWER_SPOKES)
 
     @property
     def asked(self) -> Geometry:
         """Some of the directions in which the law is asked, for its cost."""
         return self.tabulated[0][::ASKED]
 
-    @cached_property
-    def half_vectors(self) -> tuple[np.ndarray, np.ndarray]:
-        """Half vectors (points, 3) in the frame of the sample, and 4 dωh of each."""
-        return half_vectors(self.width, *((FEWER_RINGS, FEWER_SPOKES) if self.fewer else (RINGS, SPOKES)))
-
-    @cached_property
-    def tabulated(self) -> tuple[Geometry, np.ndarray, np.ndarray]:
-        """The lit directions (rows, 1) of the table, cos θi cos θr of each, and its place in (azimuths, nodes,
-        points)."""
-        half, _ = self.half_vectors
+    @property
+    def views(self) -> np.ndarray:
+        """The same in the frame of the sample, (azimuths, nodes, 3)."""
         azimuths = 2 * pi / AZIMUTHS * np.arange(AZIMUTHS)[:, None]
-        camera = sphere.from_angles(np.cos(self.nodes), azimuths)[:, :, None, :]
-        along = sphere.dot(half, camera)
-        light = 2 * along[..., None] * half - camera
-        lit = np.flatnonzero((along > 0) & (light[..., 2] > 0))
-        light, camera = (np.broadcast_to(each, (*along.shape, 3)).reshape(-1, 3)[lit] for each in (light, camera))
-        return rows(Geometry.from_vectors(light, camera)), light[:, 2] * camera[:, 2], lit
+        return sphere.from_angles(np.cos(self.nodes), azimuths)
 
     @cached_property
     def turned(self) -> tuple[np.ndarray, np.ndarray]:

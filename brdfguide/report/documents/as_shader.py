@@ -2,12 +2,10 @@
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from ...fitting.ranked import Ranking, Row
 from ...physics import seen
 from .findings import finding
-from .plain import plain
+from .plain import off_percent, plain
 
 
 def as_shader_block(target: str, found: Ranking, laws: Ranking, readings: Mapping[str, float]) -> dict:
@@ -26,7 +24,7 @@ def as_shader_block(target: str, found: Ranking, laws: Ranking, readings: Mappin
                 for key, parameter in row.fit.model.parameters.items()
             },
             "readings": [
-                {"with": words, "rms_ln": error, "off_percent": _percent(error)} for words, error in readings.items()
+                {"with": words, "rms_ln": error, "off_percent": off_percent(error)} for words, error in readings.items()
             ],
             "best_law": _entry(best),
             "settings": [_entry(each) for each in (row, *(each for each in found.rows if each.fit is not row.fit))],
@@ -38,12 +36,8 @@ def as_shader_block(target: str, found: Ranking, laws: Ranking, readings: Mappin
 def _entry(row: Row) -> dict:
     return {
         "candidate": row.fit.name,
-        "off_percent": _percent(row.rms_ln),
+        "off_percent": off_percent(row.rms_ln),
         "rms_ln": row.rms_ln,
         "seen": row.seen,
         "seen_words": seen.band_words(row.seen),
     }
-
-
-def _percent(rms_ln: float) -> float:
-    return float(f"{100 * np.expm1(min(rms_ln, 50.0)):.4g}")

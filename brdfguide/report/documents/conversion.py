@@ -1,11 +1,9 @@
 """One shader's numbers as another's, as a document."""
 
-import numpy as np
-
 from ...exporters.conversions import Converted
 from ...physics import seen
 from ...physics.colour import hex_of
-from .plain import plain
+from .plain import off_percent, plain
 
 
 def conversion_document(source: str, target: str, given: dict, found: Converted) -> dict:
@@ -19,7 +17,7 @@ def conversion_document(source: str, target: str, given: dict, found: Converted)
             "numbers": found.numbers,
             "hex": {name: hex_of(value) for name, value in found.numbers.items() if _is_colour(value)},
             "rms_ln": found.rms_ln,
-            "off_percent": float(f"{100 * np.expm1(min(found.rms_ln, 50.0)):.4g}"),
+            "off_percent": off_percent(found.rms_ln),
             "seen": found.seen,
             "seen_words": None if found.seen is None else seen.band_words(found.seen),
             "over": found.over,

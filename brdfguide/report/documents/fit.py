@@ -24,7 +24,7 @@ from .digest import with_digest
 from .errors_of_grain import errors_of_grain
 from .findings import finding
 from .off_plane import missing_block, price_block
-from .plain import plain
+from .plain import off_percent, plain
 from .reflectances import reflectances
 from .stray_light import stray_light_block
 
@@ -146,11 +146,6 @@ def _noise(ranking: Ranking, measurement: Measurement) -> dict:
     }
 
 
-def _percent(rms_ln: float) -> float:
-    """How far off that typically is: an rms of ln 0.07 is 7 %."""
-    return float(f"{100 * np.expm1(min(rms_ln, 50.0)):.4g}")
-
-
 def _order(ranking: Ranking, scale: str) -> list[dict]:
     """Candidates and errors on a scale: its winner, the others in order; alike to five digits, the simpler first."""
 
@@ -218,7 +213,7 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
         "candidate": fit.name,
         "freed": list(fit.model.free),
         "close": row.close,
-        "off_percent": _percent(row.rms_ln),
+        "off_percent": off_percent(row.rms_ln),
         "rms_ln": row.rms_ln,
         "seen": row.seen,
         "seen_words": seen.band_words(row.seen),

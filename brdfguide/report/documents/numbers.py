@@ -1,8 +1,7 @@
 """The numbers to type into other programs, as a document."""
 
-import numpy as np
-
 from ...exporters.cards import Card
+from .plain import off_percent
 
 SCHEMA = "brdfguide/numbers/1"
 
@@ -31,9 +30,9 @@ def numbers_block(cards: list[Card]) -> list[dict]:
             "hex": dict(card.hexes),
             "means": dict(card.roles),
             "rms_ln": card.rms_ln,
-            "off_percent": _percent(card.rms_ln),
+            "off_percent": None if card.rms_ln is None else off_percent(card.rms_ln),
             "measured_rms_ln": card.measured_rms_ln,
-            "measured_off_percent": _percent(card.measured_rms_ln),
+            "measured_off_percent": None if card.measured_rms_ln is None else off_percent(card.measured_rms_ln),
             "formula": card.formula,
             "model": card.model or None,
             "cannot": list(card.cannot),
@@ -41,10 +40,6 @@ def numbers_block(cards: list[Card]) -> list[dict]:
         }
         for card in cards
     ]
-
-
-def _percent(rms_ln: float | None) -> float | None:
-    return None if rms_ln is None else float(f"{100 * np.expm1(min(rms_ln, 50.0)):.4g}")
 
 
 def _short(value: float) -> float:

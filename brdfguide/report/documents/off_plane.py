@@ -1,9 +1,8 @@
 """What data in the plane of incidence cost, and which term the law lacks, as blocks of a fit's document."""
 
-import numpy as np
-
 from ...fitting.missing_term import WORDS, MissingTerm
 from ...fitting.off_plane_price import Price
+from .plain import off_percent
 
 
 def price_block(price: Price | None) -> dict | None:
@@ -11,7 +10,7 @@ def price_block(price: Price | None) -> dict | None:
     if price is None:
         return None
     return {
-        "expected_percent": _percent(price.rms_ln),
+        "expected_percent": off_percent(price.rms_ln, digits=3),
         "rms_ln": price.rms_ln,
         "in_plane_rms_ln": price.in_plane,
         "rivals_part_by_rms_ln": price.spread,
@@ -20,7 +19,7 @@ def price_block(price: Price | None) -> dict | None:
             {
                 "candidate": each.name,
                 "rms_ln": each.rms_ln,
-                "then_percent": _percent(each.then),
+                "then_percent": off_percent(each.then, digits=3),
                 "at": [
                     {"theta_i_deg": theta_i, "theta_r_deg": theta_r, "phi_deg": phi, "ln_ratio": ratio}
                     for theta_i, theta_r, phi, ratio in each.at
@@ -43,7 +42,3 @@ def missing_block(term: MissingTerm | None) -> dict | None:
         "with_it": term.candidate,
         "beside": [{"term": kind, "words": WORDS[kind], "share": share} for kind, share in term.beside],
     }
-
-
-def _percent(rms_ln: float) -> float:
-    return float(f"{100 * np.expm1(min(rms_ln, 50.0)):.3g}")

@@ -1,10 +1,10 @@
 """The candidates of a fit in tables: six columns that fit 80, and the rest of what is known of each."""
 
-from math import expm1, floor, log10
+from math import floor, log10
 
 from ..documents.findings import codes
 from .table import columns, row_lines
-from .values import off_words
+from .values import off_words, off_words_of
 
 HEADER = ("rank", "model", "off", "seen L*", "held-out", "doubts")
 RIGHT = (2, 3, 4)
@@ -26,7 +26,7 @@ def _line(row: dict, rows: list[dict], shared: list[str]) -> tuple:
         row["candidate"],
         off_words(row["off_percent"]),
         seen_cell(row),
-        "-" if held is None else off_words(100 * expm1(min(held, 50.0))),
+        "-" if held is None else off_words_of(held),
         ", ".join(doubts) or "-",
     )
 

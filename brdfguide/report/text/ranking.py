@@ -1,7 +1,6 @@
 """A fit's document as text: which model, how sure, what it costs, what was doubtful."""
 
 from collections.abc import Iterator
-from math import expm1
 from typing import NamedTuple
 
 from .floor import floor_text
@@ -9,7 +8,7 @@ from .folding import folded, wrapped_text
 from .off_plane import off_plane_text
 from .ranked_table import detail_tables, legend, number_text, ranked_lines, told_rows
 from .stray_light import stray_light_text
-from .values import off_words, percent_words
+from .values import off_words, off_words_of, percent_words
 
 MOST_KNOWN = 1.0  # two standard errors, as a share of a value, from which on it could as well be zero
 MOST_TYPED = 4  # channels of which every value is told
@@ -105,7 +104,7 @@ def trust_text(document: dict, row: dict, notes: bool = True) -> str:
         return ""
     said = [against] if (against := against_data(document)) else []
     if (held := row["held_out_rms_ln"]) is not None:
-        said.append(f"{off_words(100 * expm1(min(held, 50.0)))} off at incidence angles that it was not fitted to")
+        said.append(f"{off_words_of(held)} off at incidence angles that it was not fitted to")
     causes = {flag["code"] for flag in row["flags"]}
     if "discrepancy" in causes:
         said.append("it errs the same way over neighbouring directions, so its numbers are less sure than their ±")

@@ -1,10 +1,9 @@
 """What a fit of polished optics says beyond its parameters, in words."""
 
 from collections.abc import Callable
-from math import expm1
 
 from .scatter import length_text
-from .values import off_words, percent_words
+from .values import off_words_of, percent_words
 
 
 def stray_light_text(entries: list[dict], wrapped: Callable[[str], str]) -> str:
@@ -81,7 +80,7 @@ def _grazing(entry: dict) -> str:
 
 
 def _beside(each: dict, entry: dict) -> str:
-    off = off_words(100 * expm1(min(each["rms_ln"], 50.0)))
+    off = off_words_of(each["rms_ln"])
     text = f"beside it {each['law']} is physics too: typically {off} off"
     if entry["is"] != "physics":
         text = f"physics beside it: {each['law']}, typically {off} off"

@@ -1,5 +1,7 @@
 """Rows of values as CSV."""
 
+from math import expm1
+
 from ...printable import cell, comment
 
 LEAST = 1e-3  # percent; what is less is printed as none
@@ -26,6 +28,11 @@ def off_words(percent: float) -> str:
     if percent < 9.95:
         return f"{percent if percent >= LEAST else 0:.2g} %"
     return f"{percent:.0f} %" if percent < 99.5 else f"a factor {min(1 + percent / 100, 1e9):.2g}"
+
+
+def off_words_of(rms_ln: float) -> str:
+    """The same of an rms of ln."""
+    return off_words(100 * expm1(min(rms_ln, 50.0)))
 
 
 def percent_words(share: float) -> str:
