@@ -120,3 +120,20 @@ def test_workers_end_with_their_parent(number, tmp_path):
     run.send_signal(number)
     # the pipe is closed once the last of them is gone, and they would sleep for longer
     assert run.communicate(timeout=patience.AN_AGE_S) == (b"", None)
+
+
+def deaf_to_the_keyboard(_):
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+def test_no_worker_hears_the_keyboard_the_first_one_neither():
+    """In a process of its own: what multiprocessing starts with its first process lets signals through afterwards."""
+    script = "\n".join(
+        (
+            "from brdfguide.batch import workers",
+            "from tests.batch.test_workers import deaf_to_the_keyboard",
+            "print(*dict(workers.done(deaf_to_the_keyboard, enumerate(range(4)), 2)).values())",
+        )
+    )
+    run = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["True"] * 4
