@@ -8,7 +8,7 @@ from ..formed import formed
 from ..physics.geometry import Directions
 from . import dark_level
 from .measurement import Measurement, row_median, rows_by_tenth
-from .noise_model import SIGMA_PER_MEDIAN, NoiseModel, two_parts
+from .noise_model import FAINTEST, SIGMA_PER_MEDIAN, NoiseModel, two_parts
 from .turning import turn_of_each
 
 SPIKE_DEG = 2.5  # a spike lies this near to the mirror direction
@@ -42,6 +42,7 @@ def estimated_noise(measurement: Measurement) -> NoiseModel:
     doubt = np.maximum(
         _along_spectrum(doubt), max(_of_negative(measurement), _of_floor(measurement), detector_floor(measurement))
     )
+    doubt[doubt < FAINTEST * np.max(measurement.brdf, where=measurement.usable, initial=0.0)] = 0.0
     nothing = (0.0,) * channels
     return NoiseModel(
         relative=None if parts is None else parts[0],

@@ -15,6 +15,7 @@ HELD_DEG = 1.0  # how far one wanders that was held
 LEAST_SCAN = 5  # directions; fewer are no scan, and gain nothing by being few
 ROBUST_WIDTH = 2.385  # Cauchy weights, 95 % efficient for Gaussian noise (Holland and Welsch 1977)
 MOST_WEIGHT = 10.0  # times that one direction counts more than another
+SUREST = 1e-12  # of the mean variance: no value is surer, so that ratios stay finite
 
 
 def of_values(measurement: Measurement, kind: str = "auto") -> np.ndarray:
@@ -84,7 +85,7 @@ def unlike(measurement: Measurement, sample_weights, used, rows, variance: float
     if noise is not None and noise.matters:
         value = np.where(measurement.weighed, measurement.brdf, 0.0)
         factor = (variance * value**2 + np.array(noise.absolute) ** 2) / (value**2 + 4 * noise.floor**2)
-        factor /= np.mean(factor[measurement.weighed])
+        factor = np.maximum(factor / np.mean(factor[measurement.weighed]), SUREST)
     if sample_weights is None:
         return factor
     counted = sample_weights[used][rows]

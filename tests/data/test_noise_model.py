@@ -118,3 +118,11 @@ def test_values_of_nothing_are_left_out_of_what_is_expected_of_the_others():
     values = np.array([[1e-320], [0.5], [1.0]])
     found = NoiseModel(0.1, (0.01,), (0.0,), (0.0,)).expected(values, values > 0.1)
     assert found == pytest.approx(np.sqrt(0.1**2 + (0.02**2 + 0.01**2) / 2), rel=1e-12)
+
+
+def test_a_doubt_that_is_next_to_nothing_is_none():
+    """Found by the fuzz: values below zero by 1e-308 are no dark level, whose square would be 0."""
+    clean = dim_run(0.03, 0.0, seed=1)
+    brdf = clean.brdf.copy()
+    brdf[:9] = -1e-308
+    assert noise.estimated_noise(Measurement(clean.geom, brdf, clean.channels)).absolute == (0.0,)

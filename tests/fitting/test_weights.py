@@ -7,10 +7,11 @@ import pytest
 
 from brdfguide import models
 from brdfguide.data.measurement import Measurement
+from brdfguide.data.noise_model import NoiseModel
 from brdfguide.fitting import compare, weights
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting.fit import FitOptions
-from brdfguide.physics.geometry import Geometry, rows
+from brdfguide.physics.geometry import Geometry, in_plane, rows
 
 from .. import synthetic
 
@@ -132,3 +133,12 @@ def test_a_sandwich_of_equal_spreads_is_the_plain_covariance():
     sandwich = best.normal.scatter(np.full(data.brdf.shape, 0.02), *best.at_minimum[1:])
     for one, other in zip(plain, sandwich, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-8)
+
+
+def test_no_value_is_so_sure_that_it_leaves_the_others_without_weight():
+    """Found by the fuzz: beside a doubt whose square is 0 a variance over the mean had no inverse."""
+    geom = rows(in_plane([30.0], [0.0, 10.0, 20.0]))
+    nothing = NoiseModel(0.1, (1e-200,), (0.0,), (0.0,), matters=True)
+    measurement = Measurement(geom, np.array([[1e-99], [0.5], [1.0]]), ("1",), noise=nothing)
+    found = weights.unlike(measurement, None, None, None, 0.01)
+    assert found.min() == weights.SUREST and np.isfinite(1 / found).all()
