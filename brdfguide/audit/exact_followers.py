@@ -49,19 +49,22 @@ def copies(answer: dict, found: Comparisons) -> None:
 
 
 def reflectance_errors(row: dict, place: str, found: Comparisons) -> None:
-    """dF0 = 8nk/((n + 1)² + k²)² dk, where F0 stands in place of k."""
+    """dF0 = 8nk/((n + 1)² + k²)² dk, where F0 stands in place of k alone; told is half the way to the farther end of
+    ln F0/(1 - F0) ± 2 dF0/(F0 (1 - F0)). Where n was fitted too both err together, which does not follow."""
     for key, entry in row["parameters"].items():
-        if entry.get("in_place_of") is None or entry.get("stderr") is None:
-            continue
         label = key.rpartition(".")[0]
-        of_k = row["parameters"][f"{label}.k"]
-        n, k, error = (
-            _many(each) for each in (row["parameters"][f"{label}.n"]["value"], of_k["value"], of_k["stderr"])
-        )
+        of_n, of_k = (row["parameters"].get(f"{label}.{name}") for name in "nk")
+        if not entry.get("in_place_of") or entry.get("stderr") is None or of_n is None or of_n["fitted"]:
+            continue
+        n, k, error = (_many(each) for each in (of_n["value"], of_k["value"], of_k["stderr"]))
         for channel, told in enumerate(_many(entry["stderr"])):
             at_n, at_k, at_error = (mpf(each[channel if len(each) > 1 else 0]) for each in (n, k, error))
-            right = 8 * at_n * at_k / ((at_n + 1) ** 2 + at_k**2) ** 2 * at_error
-            found.check(f"{place}.parameters.{key}.stderr[{channel}]", told, right)
+            normal = ((at_n - 1) ** 2 + at_k**2) / ((at_n + 1) ** 2 + at_k**2)
+            slope = 8 * at_n * at_k / ((at_n + 1) ** 2 + at_k**2) ** 2
+            times = exp(2 * slope * at_error / (normal * (1 - normal)))
+            odds = normal / (1 - normal)
+            low, high = odds / times / (1 + odds / times), odds * times / (1 + odds * times)
+            found.check(f"{place}.parameters.{key}.stderr[{channel}]", told, max(normal - low, high - normal) / 2)
 
 
 def _many(value) -> list:

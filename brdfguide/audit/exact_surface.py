@@ -16,7 +16,7 @@ from .textbook import ExactDirections
 GRAINED = {"ggx-aniso", "stam", *textbook_grain.LAWS, *textbook_grain.ROUGHER}
 ANGLES = {"tilt": {"lafortune"}, "spread": {"oren-nayar"}, "axis": GRAINED}  # told in degrees, meant in radians
 SHORT = {"he": "he-torrance"}
-KNOWN = {*textbook_more.LAWS, "he-torrance"}  # the others take too long, or stand in no textbook
+KNOWN = {*textbook_more.LAWS, "he-torrance", "he-torrance-aniso", "stam"}  # others take too long, or stand nowhere
 COAT = ("coat.n", "coat.depth")
 
 
@@ -76,8 +76,7 @@ class ExactSurface:
         for part in self.parts:
             law = textbook_more.MIRRORS.get(part.law)
             if law is not None and not part.coated:
-                values = {name: self.at(key, channel) for name, key in part.keys}
-                total += law(pair, **values, wavelength=wavelength)
+                total += law(pair, **self._numbers_of(part, channel), wavelength=wavelength)
         if "coat.sigma" in self.values:
             values = {"n": self.at("coat.n", channel), "k": mpf(0), "sigma": self.at("coat.sigma", channel)}
             total += textbook_more.smooth_mirror(pair, **values, wavelength=wavelength)

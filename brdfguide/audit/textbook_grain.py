@@ -1,9 +1,10 @@
 """Laws with a grain as their papers print them, in as many digits as asked; with no shared step, as in `textbook`."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
-from mpmath import acos, asin, atan2, cos, erf, erfc, exp, fabs, lambertw, mpf, pi, quad, sin, sqrt
+from mpmath import acos, asin, atan2, cos, erf, erfc, exp, fabs, lambertw, mp, mpf, pi, quad, sin, sqrt
 
 from .textbook import WAVELENGTH, poisson_sum, unpolarised
 
@@ -71,23 +72,43 @@ def lafortune_aniso(p, ks, c_x, c_y, c_z, exponent, axis):
 def he_torrance_aniso(p, sigma, slope, ratio, axis, n, k, scale, wavelength=WAVELENGTH):
     tau_x, tau_y = sigma / slope, ratio * sigma / slope
     v, i, r = in_frame(p, axis)
-    shadow, spread = mpf(1), mpf(0)
-    for w in (i, r):
-        tan = sqrt(w[0] ** 2 + w[1] ** 2) / w[2]
-        if tan:
-            tau = sqrt(w[0] ** 2 + w[1] ** 2) / sqrt((w[0] / tau_x) ** 2 + (w[1] / tau_y) ** 2)
-            nu = tau / (2 * sigma * tan)
-            half = (1 + erf(nu)) / 2
-            shadow *= half / (half + exp(-nu * nu) / (2 * sqrt(pi) * nu))
-            spread += tan * erfc(nu)
-    rough = sigma / sqrt(1 + lambertw(spread**2 / (8 * pi)).real)
+    (s_i, k_i), (s_r, k_r) = (heights_seen(w, sigma, tau_x, tau_y) for w in (i, r))
+    rough = sigma / sqrt(1 + lambertw((k_i + k_r) ** 2 / (8 * pi)).real)
     g = (2 * pi * rough * v[2] / wavelength) ** 2
     y = (pi / wavelength) ** 2 * ((tau_x * v[0]) ** 2 + (tau_y * v[1]) ** 2)
     height = ((v[0] ** 2 + v[1] ** 2 + v[2] ** 2) / v[2]) ** 2
-    before = (
-        unpolarised(p.cos_d, n, k) * shadow / (p.cos_i * p.cos_r) * height * pi * tau_x * tau_y / (4 * wavelength**2)
-    )
-    return scale * before * poisson_sum(g, y)
+    before = unpolarised(p.cos_d, n, k) * s_i * s_r / (p.cos_i * p.cos_r) * height
+    return scale * before * pi * tau_x * tau_y / (4 * wavelength**2) * poisson_sum(g, y)
+
+
+def he_mirror_aniso(p, sigma, slope, ratio, axis, n, k, scale, wavelength=WAVELENGTH):
+    """Reflectance left to the mirror direction at θi, where light and view lie in one azimuth."""
+    _, i, _ = in_frame(p, axis)
+    s, k_i = heights_seen(i, sigma, sigma / slope, ratio * sigma / slope)
+    rough = sigma / sqrt(1 + lambertw(k_i**2 / (2 * pi)).real)
+    return scale * unpolarised(p.cos_i, n, k) * exp(-((4 * pi * rough * p.cos_i / wavelength) ** 2)) * s**2
+
+
+def heights_seen(w, sigma, tau_x, tau_y):
+    """S and K of a direction in the frame of the axis: those of a Gaussian section in its azimuth, of length tau."""
+    across = sqrt(w[0] ** 2 + w[1] ** 2)
+    tau = across / sqrt((w[0] / tau_x) ** 2 + (w[1] / tau_y) ** 2) if across else tau_x
+    return seen_in_section(across / w[2], 2 * sigma / tau, mp.prec)
+
+
+@lru_cache(maxsize=65536)
+def seen_in_section(tan, steepness, prec):
+    """S and K = tan θ erfc(ν), ν = cot θ/(2 sigma/tau), to `prec` bits."""
+    if tan * steepness * 30 < 1:  # erfc(30) is 1e-393
+        return mpf(1), mpf(0)
+    nu = 1 / (steepness * tan)
+    half = (1 + erf(nu)) / 2
+    return half / (half + exp(-nu * nu) / (2 * sqrt(pi) * nu)), tan * erfc(nu)
+
+
+def stam_mirror(p, sigma, slope, ratio, axis, f0, wavelength=WAVELENGTH):
+    """Reflectance that Stam leaves to the mirror direction at θi."""
+    return f0 * exp(-((4 * pi * sigma * p.cos_i / wavelength) ** 2))
 
 
 def cylinders(p, spacing, sink, albedo, ks, exponent, axis):

@@ -322,6 +322,8 @@ WAVES = {"he-torrance", "he-torrance-aniso", "abc", "stam"}  # which know the wa
 BODIES = {"lambertian", "oren-nayar", "eon"}
 MIRRORS: dict[str, Law] = {
     "he-torrance": he_mirror,
+    "he-torrance-aniso": textbook_grain.he_mirror_aniso,
+    "stam": textbook_grain.stam_mirror,
     "mirror": smooth_mirror,
 }  # reflectance left to the mirror direction
 

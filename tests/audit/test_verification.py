@@ -27,6 +27,7 @@ from brdfguide.report.documents.digest import digest_holds
 
 from .. import synthetic
 from ..conftest import ROOT
+from ..data.test_rotation import scans
 
 APART = ("parameters", "flags", "typed")  # where a key has dots of its own
 MODELS = ("lambertian+ggx", "lambertian+he-torrance", "lambertian+lafortune:2", "lambertian+ward")
@@ -91,6 +92,56 @@ def test_several_channels_through_an_aperture_hold_too():
     found = fit(replace(made, solid_angle=0.004), ("lambertian+ggx", "lambertian+mirror+ggx"), timing=False)
     result = verified((found.measurement, found.document))
     assert not result.wrong and len(result.derived) > 40
+
+
+GRAINED = ("he-torrance-aniso", "stam", "ggx-aniso")
+
+
+@pytest.fixture(scope="module")
+def grained():
+    """A turned metal, its waves and its facets, and the answer on it."""
+    law = models.term("he-torrance-aniso")
+    clean = scans("ggx", [0.0, 45.0, 90.0], incidences=(15.0, 55.0), alpha=0.2)[::5]
+    values = {"sigma": 0.3, "slope": 0.1, "ratio": 3.0, "axis": 0.4, "n": 1.0, "k": 4.0}
+    brdf = law(clean.geom, **law.defaults() | values)
+    noisy = brdf * np.exp(0.02 * np.random.default_rng(5).standard_normal(brdf.shape))
+    seen = Measurement(clean.geom, np.where(brdf > 1e-5 * brdf.max(), noisy, np.nan))
+    found = fit(seen, GRAINED, kind="metal", fixed={"n": 1.0}, timing=False)
+    return found.measurement, json.loads(json.dumps(found.document))
+
+
+def test_an_answer_of_a_grain_and_of_a_metals_reflectance_holds(grained):
+    found = verified(grained)
+    assert not found.wrong and not found.left
+    places = {each.place.partition(".parameters.")[2] for each in found.derived}
+    assert {"he-torrance-aniso.tau.value[0]", "stam.tau.value[0]", "ggx-aniso.ratio.value[0]"} <= places
+    assert {"ggx-aniso.alpha.value[0]", "ggx-aniso.F0.stderr[0]", "he-torrance-aniso.F0.stderr[0]"} <= places
+
+
+@pytest.mark.parametrize("law", GRAINED)
+def test_a_changed_digit_of_an_answer_of_a_grain_is_found(grained, law):
+    measurement, document = grained
+    row = next(place for place, each in enumerate(document["ranking"]) if each["candidate"].startswith(law))
+    told = document["ranking"][row]
+    for key in (f"{law}.axis", "rms_ln"):
+        changed = deepcopy(document)
+        entry = changed["ranking"][row] if key == "rms_ln" else changed["ranking"][row]["parameters"][key]
+        name = "rms_ln" if key == "rms_ln" else "value"
+        entry[name] = _one_digit_off(entry[name])
+        assert verification.verify(changed, verification.readings_of(measurement, changed), told["model"]).wrong, key
+
+
+@pytest.mark.parametrize("pin", models.term("he-torrance-aniso").pins, ids=lambda pin: pin.source)
+def test_the_mirror_image_of_a_grain_is_written_down_a_second_time(pin):
+    """At an azimuth of its own, where light and view see the same heights."""
+    geom = Geometry.from_degrees(75.0, 50.0, 75.0, 230.0, wavelength=0.45)
+    values = models.term("he-torrance-aniso").defaults() | dict(pin.values) | {"sigma": 0.1}
+    parameters = {f"he-torrance-aniso.{key}": {"value": float(value)} for key, value in values.items()}
+    parameters["he-torrance-aniso.axis"]["value"] = float(np.degrees(values["axis"]))
+    exact = exact_surface.surface_of("he-torrance-aniso", parameters)
+    with workdps(30):
+        right = float(exact.mirror(exact_surface.ExactReading((75.0, 50.0, 75.0, 230.0)).pair, 0, mpf(0.45)))
+    assert float(np.squeeze(models.term("he-torrance-aniso").mirror(geom, **values))) == pytest.approx(right, rel=1e-12)
 
 
 def test_a_changed_digit_of_any_derived_number_is_found(answer):
