@@ -6,7 +6,7 @@ import pytest
 from brdfguide.data import formats
 from brdfguide.errors import InputError
 from brdfguide.report.figures import rendered
-from brdfguide.report.path_traced import meshes, renderings
+from brdfguide.report.path_traced import meshes, renderings, tracer
 
 from ..conftest import ROOT
 
@@ -46,6 +46,24 @@ def claims(number: int, size: int, samples: int) -> dict[str, float]:
     assert all(np.isfinite(panel).all() and panel.min() >= 0 for _, panel in made.panels)
     assert rendered.rendered_figure(number, made, "here").axes
     return dict(made.claims)
+
+
+def test_a_cameras_rays_meet_what_mitsuba_sees():
+    """The middle of a picture of even size lies between its four middle pixels; half its width is half the angle."""
+    rays = tracer.Camera((0.0, 3.0, 4.0), (0.0, 0.0, 0.0), 40).rays((4, 6))
+    np.testing.assert_allclose(rays[1:3, 2:4].mean(axis=(0, 1)), (0.0, -0.6, -0.8), atol=1e-12)
+    np.testing.assert_allclose(
+        rays[..., 0], np.tan(np.radians(20)) * np.array([-5, -3, -1, 1, 3, 5]) / 6 + 0 * rays[..., 0]
+    )
+    assert np.all(np.diff(rays[..., 1], axis=0) < 0)
+
+
+@pytest.mark.validate
+def test_rough_aluminium_mirrors_the_posts_toward_grazing_alone():
+    """Figure 3: "some mirror reflection is suggested in the right-hand rendering at the larger viewing angle"."""
+    found = claims(3, 64, 16)
+    at_50, at_80 = (value for words, value in found.items() if "mirror image" in words)
+    assert abs(at_50) < 0.1 and 0.3 < at_80 < 1
 
 
 @pytest.mark.validate

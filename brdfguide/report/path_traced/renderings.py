@@ -28,6 +28,7 @@ GREY = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.3}}
 DARK = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.03}}
 WHITE = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.85}}
 COAT_INDEX = 1.5  # of clear lacquer
+FENCE, POST = -3.0, 0.25  # where the fence of Figure 3 stands, and the width of its posts and gaps
 SIZE, SAMPLES = 220, 64  # pixels of a panel's width, paths a pixel
 
 
@@ -87,28 +88,36 @@ def _aluminium(measurement, size: int, samples: int) -> Rendering:
     """A plate with a fence of white posts behind it: the mirror image of the posts shows toward grazing."""
     index = {"he-torrance.n": 0.958, "he-torrance.k": 6.69}
     surface = fitted("lambertian+he-torrance", measurement, **index)
-    posts = [upright(x, x + 0.25, 0.0, 1.6, -3.0) for x in np.arange(-2.5, 2.5, 0.5)]
-    bodies = [Body([plate(3.0, -3.0, 3.0)], surface), Body(posts, WHITE), Body([upright(-3, 3, 0, 1.6, -3.05)], DARK)]
-    sun = Sun(40, 130, (2.0, 1.9, 1.7))
-    panels, found = [], {}
+    posts = [upright(x, x + POST, 0.0, 1.6, FENCE) for x in np.arange(-2.5, 2.5, 2 * POST)]
+    board = [upright(-3, 3, 0, 1.6, FENCE - 0.05)]
+    bodies = [Body([plate(3.0, FENCE, 3.0)], surface), Body(posts, WHITE), Body(board, DARK)]
+    sun = Sun(40, 35, (2.0, 1.9, 1.7))  # behind the camera: the posts are lit, and throw no shadow on the plate
+    panels, claims = [], []
     for angle in (50.0, 80.0):
         place = np.radians(angle)
-        eye = (0.0, 7 * np.cos(place), 7 * np.sin(place) - 1.6)
-        made = traced(bodies, Camera(eye, (0.0, 0.0, -1.6), 26), day, sun, (size, size), samples)
+        camera = Camera((0.0, 7 * np.cos(place), 7 * np.sin(place) - 1.6), (0.0, 0.0, -1.6), 26)
+        made = traced(bodies, camera, day, sun, (size, size), samples)
         panels.append((f"seen at {angle:g}° from the normal", made.radiance))
-        found[angle] = _stripes(made)
-    return Rendering(panels, [(f"contrast of the posts' mirror image at {angle:g}°", found[angle]) for angle in found])
+        claims.append((f"contrast of the posts' mirror image over their own at {angle:g}°", _image(made, camera)))
+    return Rendering(panels, claims)
 
 
-def _stripes(made: Traced) -> float:
-    """How much of the posts' contrast their image in the plate has, near its far edge: 1 in a mirror, 0 if matt."""
-    post, plate_ = luminance(made.radiance), made.body == 0
-    rows = np.flatnonzero(plate_.mean(axis=1) > 0.9)
-    skipped, taken = max(1, len(rows) // 30), max(3, len(rows) // 10)  # where both touch any surface shows them
-    standing = np.flatnonzero((made.body > 0).mean(axis=1) > 0.5)  # at edges of posts it is no body
-    seen, image = (post[kept].mean(axis=0) for kept in (standing, rows[skipped : skipped + taken]))
-    seen, image = (line / line.mean() - 1 for line in (seen, image))
-    return float(image @ seen / (seen @ seen))
+def _image(made: Traced, camera: Camera) -> float:
+    """Contrast of the posts in the plate, half a unit to one and a half before them, over their own: 1 in a mirror, 0
+    if matt. A mirrored ray goes on in x and z as if there were no plate, so that its post is known.
+    """
+    x, y, z = np.moveaxis(camera.rays(made.body.shape), -1, 0)
+    across = camera.eye[0] + (FENCE - camera.eye[2]) * x / z  # where the ray meets the plane of the fence
+    before = camera.eye[2] - camera.eye[1] * z / np.minimum(y, -1e-9) - FENCE  # of the place on the plate
+    there, post = (across + 2.5) / POST % 1, (across + 2.5) / POST % 2 < 1
+    kept = (np.abs(across) < 2.4) & (np.abs(there - 0.5) < 0.35)  # not at a post's edge
+    light = luminance(made.radiance)
+
+    def contrast(seen, other):
+        return (light[seen & post].mean() - light[other & ~post].mean()) / light[kept & (seen | other)].mean()
+
+    on = kept & (made.body == 0) & (before > 0.5) & (before < 1.5)
+    return float(contrast(on, on) / contrast(kept & (made.body == 1), kept & (made.body == 2)))
 
 
 def _ball(radius: float = 1.0) -> Mesh:

@@ -25,6 +25,16 @@ class Camera:
     target: tuple[float, float, float]
     wide_deg: float = 30.0
 
+    def rays(self, shape: tuple[int, int]) -> np.ndarray:
+        """Through the middle of each pixel of a picture (height, width), from the eye, (height, width, 3)."""
+        ahead = np.subtract(self.target, self.eye) / np.linalg.norm(np.subtract(self.target, self.eye))
+        right = np.cross(ahead, (0.0, 1.0, 0.0))
+        right /= np.linalg.norm(right)
+        half = np.tan(np.radians(0.5 * self.wide_deg))
+        across = half * (2 * np.arange(shape[1]) + 1 - shape[1]) / shape[1]
+        down = half * (2 * np.arange(shape[0]) + 1 - shape[0]) / shape[1]
+        return ahead + across[:, None] * right - down[:, None, None] * np.cross(right, ahead)
+
 
 @dataclass(frozen=True, eq=False)
 class Sun:
