@@ -26,7 +26,7 @@ def _texts(fig: Figure):
     shown = [
         text for text in fig.findobj(Text) if text.get_text().strip() and text.get_visible() and _is_drawn(fig, text)
     ]
-    boxes = [text.get_window_extent() for text in shown]
+    boxes = [Text.get_window_extent(text) for text in shown]  # an annotation's own counts its leader
     page = fig.bbox
     for text, box in zip(shown, boxes, strict=True):
         if box.x0 < page.x0 - SLACK or box.x1 > page.x1 + SLACK or box.y0 < page.y0 - SLACK or box.y1 > page.y1 + SLACK:

@@ -14,6 +14,8 @@ from brdfguide.report.figures import cost, dark, lobes, palette, panels, style
 from brdfguide.report.figures import lines as figure_lines
 from brdfguide.report.figures import ranking as plot
 
+from .probe import faults
+
 TRUE = {"lambertian.albedo": np.array([0.4, 0.5]), "ward.rho_s": np.array([0.1, 0.1]), "ward.alpha": 0.2}
 
 
@@ -206,6 +208,28 @@ def test_no_point_and_no_name_lies_outside_the_frame():
     for text in fig.axes[0].texts:
         box = text.get_window_extent()
         assert frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1, text.get_text()
+
+
+CROWD = {
+    "lambertian": (12, 0.66), "oren-nayar": (12.1, 0.66), "lambertian+phong-lewis": (17.2, 0.51),
+    "lambertian+blinn": (18.6, 0.51), "lambertian+phong": (21.9, 0.358), "lambertian+ward": (19.4, 0.335),
+    "lambertian+ward-gmd": (16, 0.173), "lambertian+lafortune": (41, 0.15), "lambertian+ggx": (49, 0.094),
+    "oren-nayar+ggx": (68, 0.094), "lambertian+lafortune:2": (43, 0.0748), "lambertian+cook-torrance": (64, 0.0718),
+    "lambertian+beckmann": (83, 0.066), "lambertian+student-t": (193, 0.065), "lambertian+he-torrance": (370, 0.0693),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", [None, 1, 2])
+def test_names_of_fifteen_models_close_together_do_not_meet(seed):
+    """Times and errors of the rough plastic, and others drawn at random about its times."""
+    rng = np.random.default_rng(seed)
+    lines = []
+    for name, (ns, error) in CROWD.items():
+        if seed is not None:
+            ns, error = ns * np.exp(rng.normal(0, 0.15)), 0.05 * np.exp(rng.gamma(1.2, 0.7))
+        surface = Surface(models.get(name), {})
+        lines.append(figure_lines.Line(name, surface, error, ns, True, recommended=name == "lambertian+cook-torrance"))
+    assert faults(cost.plot_cost(lines)) == []
 
 
 @pytest.mark.parametrize("errors", [(0.75, 1.13), (0.056, 0.061), (0.07, 2.2)])

@@ -123,14 +123,18 @@ def _name_points(fig, axis, lines: list[Line], at, stairs, legend) -> None:
 
 
 def _free_place(x, y, width, frame, taken, steps):
-    """(dx, dy, box, whether a leader leads there): the nearest place that is free; the nearest of all if none is."""
+    """(dx, dy, box, whether a leader leads there): the nearest place that is free; where every leader to one crosses
+    something, the nearest all the same; the nearest of all if none is free.
+    """
+    sides = [side for apart in (6, 24, 60, 110, 170) for side in (apart, -apart - width)]
     offsets = [
         (dx, dy)
         for dy in np.arange(-90, 91, STEP)
-        for dx in (6, -6 - width, -width / 2, 24, -24 - width, 60, -60 - width)
-        if abs(dy) > 6 or abs(dx) <= 6 or dx == -6 - width
+        for dx in (-width / 2, *sides)
+        if abs(dy) > 6 or dx in sides[:2] or abs(dx) > 100
     ]
     offsets.sort(key=lambda by: np.hypot(np.clip(0, by[0], by[0] + width), 1.5 * by[1]))
+    crossing = None
     for dx, dy in offsets:
         box = (x + dx, y + dy - 4.5, x + dx + width, y + dy + 4.5)
         inside = frame[0] + 2 < box[0] and box[2] < frame[2] - 2 and frame[1] + 2 < box[1] and box[3] < frame[3] - 2
@@ -139,6 +143,9 @@ def _free_place(x, y, width, frame, taken, steps):
             continue
         if not leads or not any(a[0] < px < a[2] and a[1] < py < a[3] for px, py in _leader(x, y, box) for a in taken):
             return dx, dy, box, leads
+        crossing = crossing or (dx, dy, box, leads)
+    if crossing:
+        return crossing
     dx, dy = offsets[0]
     return dx, dy, (x + dx, y + dy - 4.5, x + dx + width, y + dy + 4.5), False
 
