@@ -37,14 +37,14 @@ PACKAGES = ("numpy", "matplotlib", "pyyaml")
 def write(document: dict, path, figures=(), command: str = "", files=(), explorer: str = "") -> None:
     """Write the page whole or not at all.
 
-    `figures` are (SVG or PNG file, caption); `files` are hashed for the last section; `explorer` is the block of
+    `figures` are as `sheet.picture` takes them; `files` are hashed for the last section; `explorer` is the block of
     `explorer_block`. Raises InputError where it cannot be written.
     """
     write_whole(path, html(document, figures, command, files, explorer))
 
 
 def html(document: dict, figures=(), command: str = "", files=(), explorer: str = "") -> str:
-    """The page as text; `figures` are (SVG or PNG file, caption)."""
+    """The page as text; `figures` are as `sheet.picture` takes them."""
     whole = plain(document)
     document = printable.document(whole)
     sections = [
@@ -105,11 +105,7 @@ def _answer(document) -> str:
 
 
 def _figures(figures) -> str:
-    return "".join(
-        f'<figure><div class="wide">{sheet.picture(content, number, escape(caption, quote=True))}</div>'
-        f"<figcaption>{escape(caption)}</figcaption></figure>"
-        for number, (content, caption) in enumerate(figures, start=1)
-    )
+    return "".join(sheet.picture(each, number) for number, each in enumerate(figures, start=1))
 
 
 def _parameters(document) -> str:

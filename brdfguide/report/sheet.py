@@ -2,6 +2,7 @@
 
 import re
 from base64 import b64encode
+from html import escape
 
 from .figures import style
 
@@ -41,6 +42,10 @@ code{font-family:ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;font-s
 figure{margin:1rem 0}
 figure svg{display:block;width:100%;height:auto;min-width:34rem}
 figure img{display:block;max-width:100%;height:auto}
+.looks{display:flex;flex-wrap:wrap;gap:1rem;margin:.6rem 0}
+.looks>div{flex:0 1 16rem;min-width:0;font-size:.88rem}
+.looks b{display:block}
+.looks img{margin-bottom:.3rem;border-radius:3px;background:var(--card)}
 figcaption{font-size:.88rem;margin-top:.3rem}
 @media screen and (max-width:36rem){
  figure:has(svg) figcaption::before{content:"Wider than the screen: swipe it sideways. "}}
@@ -84,8 +89,18 @@ def inline(svg: bytes, number: int) -> str:
     return text.replace("<svg", '<svg role="img"', 1)
 
 
-def picture(content: bytes, number: int, words: str) -> str:
-    """A figure's file, SVG or PNG, ready to stand in a page; `words` say what it shows."""
-    if content.startswith(b"\x89PNG"):
-        return f'<img alt="{words}" src="data:image/png;base64,{b64encode(content).decode()}">'
-    return inline(content, number).replace("<svg", f'<svg aria-label="{words}"', 1)
+def picture(figure: style.PageFigure, number: int) -> str:
+    """A figure, ready to stand in a page with its caption."""
+    content, caption = figure
+    if isinstance(content, bytes):
+        named = inline(content, number).replace("<svg", f'<svg aria-label="{escape(caption, quote=True)}"', 1)
+        shown = f'<div class="wide">{named}</div>'
+    else:
+        shown = f'<div class="looks">{"".join(_look(*each) for each in content)}</div>'
+    return f"<figure>{shown}<figcaption>{escape(caption)}</figcaption></figure>"
+
+
+def _look(png: bytes, name: str, words: str) -> str:
+    image = f'<img alt="{escape(name, quote=True)}" src="data:image/png;base64,{b64encode(png).decode()}">'
+    more = f' <span class="soft">{escape(words)}</span>' if words else ""
+    return f"<div>{image}<b>{escape(name)}</b>{more}</div>"

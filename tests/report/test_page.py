@@ -4,8 +4,12 @@ import json
 import re
 import shutil
 import subprocess
+from base64 import b64decode
+from io import BytesIO
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from brdfguide.errors import InputError
 from brdfguide.report import page, render
@@ -154,6 +158,18 @@ def test_the_answer_comes_first(fitted):
 
 def test_nothing_comes_from_elsewhere(fitted):
     assert not re.search(r"(?:src|href)=\"(?!data:|#|f\d)[^\"]*\"|@import|url\((?!#|&quot;#)", fitted)
+
+
+def test_nothing_in_a_dark_page_stays_white(fitted):
+    """Its pictures hold no paper: previews are pixels alone, and a difference is clear where there is none."""
+    pictures = [
+        Image.open(BytesIO(b64decode(each))) for each in re.findall(r"data:image/png;base64,([\w+/=]+)", fitted)
+    ]
+    assert [each.mode for each in pictures] == ["RGB", "RGB", "RGBA"] and {each.size for each in pictures} == {(32, 32)}
+    clear = np.array(pictures[2])
+    assert clear[0, 0, 3] == 0 and clear[..., 3].max() > 0  # the sky is the same
+    words = text_of(fitted)
+    assert "minus lambertian+ward" in words and "just noticeable steps of luminance" in words
 
 
 def test_what_the_file_is_called_cannot_become_markup(fitted):

@@ -189,6 +189,10 @@ def test_a_difference_counts_steps_that_are_just_noticeable():
     np.testing.assert_allclose(steps, 3, rtol=0.02)
     assert np.all(spheres.difference_picture(np.zeros((2, 2))) == 1)
     np.testing.assert_allclose(spheres.difference_picture(np.full((1, 1), 99.0))[0, 0], spheres.MORE)
+    steps = np.linspace(-30, 30, 13)[None]
+    clear = spheres.clear_difference(steps)
+    over_white = clear[..., :3] * clear[..., 3:] + 1 - clear[..., 3:]
+    np.testing.assert_allclose(over_white, spheres.difference_picture(steps))
 
 
 def test_several_surfaces_make_a_sheet_without_differences_and_the_same_bytes_twice(tmp_path):

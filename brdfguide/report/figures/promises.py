@@ -51,10 +51,10 @@ def _what(lines: list[Line]) -> str:
     return "models at their start values" if len(lines) > 1 else "the model at its start values"
 
 
-def promise_figures(candidates: Sequence[Proposal], name: str = "") -> list[tuple[bytes, str]]:
+def promise_figures(candidates: Sequence[Proposal], name: str = "") -> list[style.PageFigure]:
     """What a page shows of a description: what its candidates promise, and how they look; nothing if there are none."""
     if not candidates:
         return []
     caption = "What the candidates promise in the plane of incidence at their start values."
-    looks = spheres.picture_of_looks([each.surface for each in candidates[:MOST_LOOKS]])
+    looks = spheres.pictures_of_looks([each.surface for each in candidates[:MOST_LOOKS]])
     return [(style.figure_file(promised(candidates, name=name)), caption), looks]

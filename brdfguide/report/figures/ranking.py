@@ -6,6 +6,7 @@ from .cost import draw_cost, plot_cost
 from .grain import HEIGHT_MM, draw_grain, grain_of, plot_grain
 from .lines import lines_of, shown_lines, title_of
 from .lobes import draw_lobes, plot_lobes
+from .style import PageFigure
 
 GRAIN_WORDS = (
     "The grain: scans under turns of the sample; the peak over facet slopes with the ellipse of the data (dashed) and "
@@ -30,9 +31,9 @@ def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIG
         style.save(fig, path, theme)
 
 
-def ranking_figures(ranking, measurement: Measurement) -> list[tuple[bytes, str]]:
-    """What a report page shows of a ranking: (file, caption) of the lobes, of error against run time, and of how the
-    recommended model and the worst of those drawn look."""
+def ranking_figures(ranking, measurement: Measurement) -> list[PageFigure]:
+    """What a report page shows of a ranking: the lobes, error against run time, and how the recommended model and the
+    worst of those drawn look."""
     lines = lines_of(ranking)
     plotted = shown_lines(lines)
     pick = next((line for line in plotted if line.recommended), plotted[0])
@@ -48,5 +49,5 @@ def ranking_figures(ranking, measurement: Measurement) -> list[tuple[bytes, str]
             style.figure_file(plot_cost(lines)),
             "Error against run time. A model on the front is beaten by no other in both.",
         ),
-        spheres.picture_of_looks([line.surface for line in pair]),
+        spheres.pictures_of_looks([line.surface for line in pair]),
     ]

@@ -25,8 +25,8 @@ CAPTION = (
 )
 
 
-def shot_figures(file, surface: Surface) -> list[tuple[bytes, str]]:
-    """(file, caption) of the pictures that a description names, with a surface fitted to them."""
+def shot_figures(file, surface: Surface) -> list[style.PageFigure]:
+    """The pictures that a description names, with a surface fitted to them."""
     described = plan.planned(Path(file).read_text(encoding="utf-8-sig"), str(file))
     found = extract.extract(described)
     with style.look():
@@ -34,7 +34,7 @@ def shot_figures(file, surface: Surface) -> list[tuple[bytes, str]]:
         axes = fig.subplots(len(found.sights), 4, squeeze=False)
         for row, seen in zip(axes, found.sights, strict=True):
             _shot(row, seen, surface, described.wavelength_um)
-        return [(style.figure_file(fig, "png"), CAPTION)]
+        return [(style.figure_file(fig), CAPTION)]
 
 
 def _shot(row, seen: Sight, surface: Surface, wavelength) -> None:

@@ -67,7 +67,7 @@ def picture_sheet(
     return _sheet(cells, columns, note)
 
 
-def _differences(captions, radiances) -> list[Cell]:
+def _differences(captions, radiances, clear: bool = False) -> list[Cell]:
     below, made = len(radiances) > 2, []
     for place in range(1, len(radiances)):
         steps = noticeable_steps(radiances[0], radiances[place])
@@ -77,7 +77,8 @@ def _differences(captions, radiances) -> list[Cell]:
             f"brighter, blue where darker; {more:.0f} % of the picture differs by more than one"
         )
         name = f"minus {captions[0][0]}"
-        made.append(Cell(place if below else 2, int(below), name, words, difference_picture(steps)))
+        picture = clear_difference(steps) if clear else difference_picture(steps)
+        made.append(Cell(place if below else 2, int(below), name, words, picture))
     return made
 
 
@@ -129,6 +130,12 @@ def difference_picture(steps) -> np.ndarray:
     return 1 + np.maximum(grey, 0) * (MORE - 1) + np.maximum(-grey, 0) * (LESS - 1)
 
 
+def clear_difference(steps) -> np.ndarray:
+    """The same with opacity, (height, width, 4): over white it is that picture."""
+    share = np.clip(steps / FULL, -1, 1)[..., None]
+    return np.concatenate((np.where(share > 0, MORE, LESS), np.abs(share)), axis=-1)
+
+
 def preview_sheet(surfaces: Sequence[ColouredSurface], radiances, about: str, compared: bool = True):
     """The same with the name and the shape of each surface, what lights them, and the tone curve."""
     curve = f"exposure {render.EXPOSURE:g}, linear up to half of white, above it 1 - 1/(4x), sRGB"
@@ -151,12 +158,25 @@ def _caption(surface: ColouredSurface) -> tuple[str, str]:
     return surface.name, ", ".join(words)
 
 
-def picture_of_looks(surfaces: list[Surface]) -> tuple[bytes, str]:
-    """A preview of each surface, side by side, as PNG, and what it shows in words."""
+def pictures_of_looks(surfaces: list[Surface]) -> tuple[list[tuple[bytes, str, str]], str]:
+    """A preview of each surface and how each but the first differs from that, as (PNG, name, words); and their light.
+
+    A difference is clear where there is none, so that it stands on any ground.
+    """
     made = [_shown(each) for each in surfaces]
-    picture = picture_sheet([(each.name, "") for each in made], [render.render(each, SMALL) for each in made])
+    radiances = [render.render(each, SMALL) for each in made]
+    captions = [(each.name, "") for each in made]
+    shown = [(_png(render.tone(each)), name, "") for each, (name, _) in zip(radiances, captions, strict=True)]
+    shown += [(_png(each.picture), each.name, each.small) for each in _differences(captions, radiances, clear=True)]
     how = f"The same light on each, a small sun and a sky with a horizon; {made[0].colour.how}."
-    return picture, how
+    return shown, how
+
+
+def _png(picture) -> bytes:
+    """Of values from 0 to 1, (height, width, 3 or 4)."""
+    out = BytesIO()
+    Image.fromarray((255 * np.clip(picture, 0, 1) + 0.5).astype(np.uint8)).save(out, "PNG", optimize=False)
+    return out.getvalue()
 
 
 def _shown(surface: Surface) -> ColouredSurface:

@@ -19,8 +19,10 @@ from .palette import COLOURS, DARK, DASHES, INK, LIGHT, MARKERS, PAPER, RULE
 
 __all__ = [
     "COLOURS", "DARK", "DASHES", "INK", "LIGHT", "MARKERS", "PAPER", "RULE",
-    "figure", "figure_file", "look", "origin", "save", "freeze_layout",
+    "PageFigure", "figure", "figure_file", "look", "origin", "save", "freeze_layout",
 ]  # fmt: skip
+# of a page: an SVG file, or pictures as (PNG file, name, words); and a caption of the whole
+PageFigure = tuple[bytes | list[tuple[bytes, str, str]], str]
 DOTS_PER_INCH = 200
 MOST_OF_A_LINE = 600  # letters of a line below a figure, before it is folded
 
