@@ -198,17 +198,23 @@ def _candidate(name: str, why: str, by: tuple[str, ...], filled: Material) -> Pr
     cannot = [
         f"{each.name}: {each.cannot}" for each in models if each.cannot and (not each.is_body or len(models) == 1)
     ]
-    if filled.emerges and not model.has_mirror:
-        cannot.append("cannot show the mirror image that was seen to emerge")
-    if filled.retroreflective and not any(each.returns_light for each in models):
-        cannot.append("cannot shine back toward the light")
-    if said_to_be_grained(filled) and not any(each.turns for each in models):
-        cannot.append("cannot change as the sample turns")
     surface = Surface.of_colours(model, start)
     units = None if filled.kind == "metal" or start_values.open_metal(model, filled) else predicted_gloss(surface)
+    cannot += _cannot_though_seen(model, filled)
     return Proposal(
         model, start, why, by, tuple(cannot), start_values.grazing_growth(surface), units, ns_per_direction(name)
     )
+
+
+def _cannot_though_seen(model: Composite, filled: Material) -> list[str]:
+    """What was seen of the surface and this sum cannot show."""
+    seen = {
+        "cannot show the mirror image that was seen to emerge": filled.emerges and not model.has_mirror,
+        "cannot shine back toward the light": filled.retroreflective
+        and not any(term.model.returns_light for term in model.terms),
+        "cannot change as the sample turns": said_to_be_grained(filled) and not model.turns,
+    }
+    return [words for words, holds in seen.items() if holds]
 
 
 def predicted_gloss(surface: Surface) -> dict[int, float]:
@@ -254,7 +260,8 @@ def _effects(described: Material) -> tuple[dict[str, str], dict[str, tuple[str, 
         elif without.intervals != whole.intervals:
             effects[key] = "narrows"
         else:
-            effects[key] = "confirms" if changed or without.said.keys() - whole.said.keys() else "none"
+            told = changed or without.said.keys() - whole.said.keys() or without.cannot != whole.cannot
+            effects[key] = "confirms" if told else "none"
     return effects, rests_on
 
 
@@ -285,6 +292,7 @@ class _Answer:
     said: Mapping[
         str, tuple
     ]  # rule -> its words: what it says and why, what it needs, which models it is for and against
+    cannot: tuple[list[str], ...]  # of each sum, of what was seen
     set_aside: tuple[str, ...]
 
 
@@ -298,5 +306,6 @@ def _answer(described: Material) -> _Answer:
         (_verdict(filled, advice)[0], _status(advice), starts),
         tuple((each.name, tuple(each.numbers.items())) for each in found.laws) if found else (),
         {each.rule: (each.says, each.because, each.needs, each.why, each.drops) for each in advice},
+        tuple(_cannot_though_seen(catalogue.get(name), filled) for name in chosen),
         tuple(found.set_aside) if found else (),
     )

@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from ..models.model import Model
+from ..models.model import Composite, Model
 from ..physics.geometry import Geometry
 from ._directions import judged_over
 from ._refit import Goal, TargetModel, refit, settled_over_many
@@ -189,13 +189,26 @@ def fresnel_index(surface: ColouredSurface, spectral: bool = False) -> tuple[np.
 
 
 def in_order_for(surfaces: Sequence[ColouredSurface], lobe: str = "") -> list[ColouredSurface]:
-    """Of candidates for one surface, best first, those that keep the mirror of a coat, where the first has one over
-    something; those alone whose lobes are the target's own, where it has one alone and there are such."""
-    terms = [term.model for term in surfaces[0].model.terms]
-    coated = len(terms) > 1 and any(each.is_mirror or each.is_coat for each in terms)
+    """Of candidates for one surface, best first, those that keep what the first has: the mirror of a coat over
+    something, a highlight of some width, a grain, light sent back, a rim of fibres; of these alone those whose lobes
+    are the target's own, where it has one alone and there are such."""
+    first = surfaces[0].model
+    coated = len(first.terms) > 1 and any(term.model.is_mirror or term.model.is_coat for term in first.terms)
     kept = [each for each in surfaces if each.has_mirror] if coated else []
-    own = [each for each in kept or surfaces if _has_lobe_of(each, lobe)] if lobe else []
-    return own or list(kept or surfaces)
+    kept = [each for each in kept or surfaces if _kinds(first) <= _kinds(each.model)] or list(kept or surfaces)
+    return [each for each in kept if lobe and _has_lobe_of(each, lobe)] or kept
+
+
+def _kinds(model: Composite) -> set[str]:
+    """What the lobes of a sum are and do."""
+    terms = [term.model for term in model.terms]
+    has = {
+        "width": any(each.is_lobe for each in terms),
+        "grain": model.turns,
+        "sent back": any(each.returns_light for each in terms),
+        "fibres": any(each.family == "fabric" for each in terms),
+    }
+    return {kind for kind, found in has.items() if found}
 
 
 def _has_lobe_of(surface: ColouredSurface, lobe: str) -> bool:

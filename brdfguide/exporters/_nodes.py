@@ -28,6 +28,7 @@ METAL_STARTS = (0.1, 0.5, 0.9)
 ALIKE = 0.2  # rms ln within which a polished base is taken before a coat over a base
 HIGH_DEG = 60.0  # beyond, laws and shaders part over what lies under a surface
 CLEAREST = 2.5  # index of a dielectric at most (diamond has 2.42)
+MOST_GRAIN = 0.98  # anisotropy at which the aspect of the widths ends
 FAINT = 1e-2  # of a mirror's highest value: below it is not seen beside it
 # why a shader's best numbers are far off a body, a lobe under a coat, what lies under a coat that bends light
 LACKS = {
@@ -80,6 +81,8 @@ class Node:
             return replace(p, low=0.04, log=True, starts=(0.1, 0.3, 0.6))
         if name in (self.weight, self.coat):  # at 0 nothing would be left to judge
             return replace(p, low=1e-4, log=True, starts=(0.1, 1.0))
+        if name == self.grain:  # MaterialX's aspect stays as it is beyond, where a search would not come back from
+            return replace(p, high=min(p.high, MOST_GRAIN), starts=(0.2, 0.6, 0.9))
         if name != "base_color":
             return replace(p, starts=p.starts or (0.1, 0.5, 1.0)[: 2 + (p.high <= 1)])
         if fixed.get(self.metalness):

@@ -65,6 +65,13 @@ def test_an_observation_that_answers_what_a_rule_needs_is_not_without_effect_see
     assert not list(faults(made))
 
 
+def test_an_observation_that_a_candidate_cannot_show_is_not_without_effect_seed_10729():
+    """A mirror image seen above flakes under a satin coat: only what the candidates cannot show tells of it."""
+    made = material.parse_material(json.dumps(drawn(10_729)))
+    assert recommend.recommend(made, anyway=True).effects["emergence_angle_deg"] == "confirms"
+    assert not list(faults(made))
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_it_is_answered_or_refused_in_words_seed(seed):
     try:

@@ -267,6 +267,12 @@ def test_what_is_typed_into_programs_holds_both_widths():
     assert any("Tangent lies at azimuth 30 degrees" in note for note in found["Unreal"].notes)
 
 
+@pytest.mark.parametrize("wide, narrow", [(0.2, 0.034), (0.15, 0.015), (0.5, 0.05)])
+def test_a_long_streak_keeps_its_widths(wide, narrow):
+    for target in ("standard-surface", "openpbr"):
+        assert exporters.export(target, brushed(alpha_x=wide, alpha_y=narrow)).statement.rms_ln < 0.05
+
+
 def test_what_masking_with_one_width_costs_is_said():
     for target in ("openpbr", "standard-surface"):
         notes = exporters.export(target, brushed()).statement.notes

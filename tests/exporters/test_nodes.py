@@ -85,6 +85,21 @@ def test_a_coats_mirror_is_not_given_up_for_a_better_number():
     assert exporters.export("openpbr", bare).statement.rms_ln < made.statement.rms_ln
 
 
+@pytest.mark.parametrize(
+    "first, other",
+    [
+        (of("lambertian+beckmann", {"beckmann.alpha": 0.05}), of("lambertian+mirror")),
+        (of("ggx-aniso", {"alpha_x": 0.2, "alpha_y": 0.04, "n": 1.2, "k": 6.0}), of("ggx", {"alpha": 0.09, "k": 6.0})),
+        (of("lambertian+sheen"), of("lambertian+ggx", {"ggx.alpha": 0.35})),
+    ],
+    ids=["a highlight's width", "a grain", "a rim of fibres"],
+)
+def test_what_the_first_candidate_has_is_not_given_up_for_a_better_number(first, other):
+    taken, made = exporters.held_best("usd", [first, other])
+    assert taken is first
+    assert exporters.export("usd", other).statement.rms_ln < made.statement.rms_ln
+
+
 def test_what_is_far_off_says_what_the_shader_lacks():
     glossy = of("lambertian+ggx", {"ggx.alpha": 0.02, "lambertian.albedo": 0.8})
     [why] = exporters.export("openpbr", glossy).statement.lost

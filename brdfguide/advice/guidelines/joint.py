@@ -9,7 +9,7 @@ from typing import cast
 
 from ..evidence import Evidence, Observation, evidence_of
 from ..inference import Estimate, Inference, LawEstimate, infer
-from ..material import Material
+from ..material import Material, said_to_be_grained
 from .guideline import Advice, rule
 
 LAWS = {"beckmann": "Gaussian facets", "ggx": "GGX", "he-torrance": "He-Torrance"}
@@ -169,11 +169,15 @@ def law_that_gives_the_readings(material: Material) -> Advice | None:
         return None
     body = "lambertian+" if material.subsurface == "lambertian" else ""
     drops = {each.name: _shortfall(each, found.evidence) for each in failing}
-    drops |= dict.fromkeys(PLAIN, "has no numbers that would give these readings")
     alone = len(failing) == len(found.laws) - 1
     which = "the only one" if alone else "the plainest"
     says = f"{LAWS[found.law.name]}, {which} of the laws here that gives all readings to within a doubt"
-    return Advice(says, _readings(found.evidence), prefers=(body + found.law.name,), drops=drops)
+    prefers: tuple[str, ...] = () if said_to_be_grained(material) else (body + found.law.name,)  # a grain goes first
+    why: dict[str, str] = {}
+    if prefers and found.law.name == "beckmann" and "ggx" in drops:
+        why = {f"{body}ggx": f"what renderers have in its place: GGX with numbers of its own, which {drops.pop('ggx')}"}
+    drops |= dict.fromkeys(PLAIN, "has no numbers that would give these readings")
+    return Advice(says, _readings(found.evidence), prefers=(*prefers, *why), why=why, drops=drops)
 
 
 def _shortfall(law: LawEstimate, evidence: Evidence) -> str:

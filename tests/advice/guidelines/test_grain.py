@@ -35,6 +35,13 @@ def test_the_width_that_was_seen_of_a_streak_is_its_short_one():
     assert wide["alpha_y"] == pytest.approx(narrow["alpha_y"]) and wide["alpha_x"] == pytest.approx(5 * wide["alpha_y"])
 
 
+def test_a_grain_goes_before_the_law_that_alone_gives_the_readings():
+    seen = observed(BRUSHED | {"finish": "satin", "highlight_width_deg": 5, "highlight_aspect": 6})
+    found = recommend.recommend(seen)
+    assert "law_that_gives_the_readings" in {each.rule for each in found.advice}
+    assert found.candidates[0].model.turns and not found.candidates[0].cannot[1:]
+
+
 def test_the_axis_lies_across_the_grooves():
     assert np.degrees(start(grain_deg=30)["axis"]) == pytest.approx(120.0)
     assert np.degrees(start(grain_deg=120)["axis"]) == pytest.approx(30.0)
