@@ -43,6 +43,13 @@ def test_every_reader_has_cases_and_some_of_them_are_read(fuzz):
         assert {each.outcome for each in outcomes} <= {"answered", "refused"}, (target, outcomes)
 
 
+@pytest.mark.parametrize("index", [32, 44, 254])
+def test_scans_at_the_end_of_arithmetic_that_warned_do_not(fuzz, index):
+    """The ratio of two values, or their weights' sum, had no number."""
+    _, tries = fuzz
+    assert tries.case("extremes", 1, index).outcome in ("answered", "refused")
+
+
 @pytest.mark.parametrize(
     "planted, outcome",
     [(ZeroDivisionError("x"), "traceback"), (RuntimeWarning("x"), "warning"), (MemoryError(), "traceback")],

@@ -3,7 +3,7 @@
 import json
 import struct
 from io import BytesIO
-from math import radians
+from math import exp, radians
 from pathlib import Path
 from random import Random
 
@@ -53,6 +53,28 @@ def table(draw: Random) -> bytes:
         row = (*where[len(angles)], *(_value(draw) for _ in channels))
         lines.append(mark.join(f"{each:g}" for each in row))
     return damaged(draw, "\n".join(lines) + "\n", VOCABULARY)
+
+
+_EXTREMES = """
+    0 -0.01 1e-320 2e-308 1e-150 1e-105 3e-99 1e-60 1e-12 1e-5 1e5 1e12 1e60 9e99 1e105 1e150 1e308 -1e-320 -1e-60 -1e60
+    -1e300 nan 0.5
+"""
+_SCALES = (1.0, 1.0, 1e-90, 1e90, 1e-50, 1e50, 1e-12)
+
+
+def extremes(draw: Random) -> bytes:
+    """Whole scans of a glossy surface on some scale, in which some values are at the end of arithmetic."""
+    names = draw.choice((["brdf"], ["brdf", "stderr"], ["R", "G", "B"], ["450nm", "550nm", "650nm"]))
+    share, kinds, scale = draw.choice((0.02, 0.1, 0.5, 1.0)), draw.choices(_EXTREMES.split(), k=5), draw.choice(_SCALES)
+    width, noise = draw.uniform(3, 20), draw.choice((0.0, 0.03))
+    lines = [",".join(("theta_i", "theta_r", *names))]
+    for theta_i in draw.choice(((30,), (10, 50), (0, 20, 45, 70))):
+        for theta_r in range(-76, 80, draw.choice((4, 8))):
+            value = 0.1 + 2 * exp(-(((theta_r - theta_i) / width) ** 2))
+            sizes = [(value if name != "stderr" else 0.05 * value) * scale * draw.gauss(1, noise) for name in names]
+            told = [draw.choice(kinds) if draw.random() < share else f"{size:g}" for size in sizes]
+            lines.append(",".join((str(theta_i), str(theta_r), *told)))
+    return "\n".join(lines).encode()
 
 
 def cornell(draw: Random) -> bytes:
@@ -277,6 +299,7 @@ MAKERS = programs.MAKERS | {
     each.__name__: each
     for each in (
         table,
+        extremes,
         cornell,
         alta,
         astm,

@@ -17,6 +17,7 @@ ANSWERED, REFUSED, TRACEBACK, WARNING, UNFIT = "answered", "refused", "traceback
 LONGEST = 1300  # letters of a sentence, by the line
 TEXTS = ("glsl", "osl", "usd", "pbrt", "mitsuba", "mitsuba-dict", "materialx", "radiance", "radiance-cal", "gltf")
 FEW = 2000  # values that are also fitted, now and then
+FITTED = {"extremes"}  # targets of which every case is
 
 
 class Case(NamedTuple):
@@ -72,7 +73,7 @@ def _where(error: BaseException) -> str:
 
 def tried(target: str, draw: Random, index: int) -> None:
     if target in readers.MAKERS:
-        _read(readers.MAKERS[target](draw), fit=index % 5 == 0)
+        _read(readers.MAKERS[target](draw), fit=target in FITTED or index % 5 == 0)
     elif target == "fit-json":
         _saved(documents.fit_json(draw))
     elif target == "description":

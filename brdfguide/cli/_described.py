@@ -72,9 +72,10 @@ def _is_measurement(path: str) -> bool:
 def answered_description(words: list[str]) -> int | None:
     """Answers `recommend` of one description and gives the exit status; None: the full parser has to."""
     switches = {word for word in words if word.startswith("-")}
-    if len(words) != len(switches) + 1 or not switches <= SWITCHES or switches >= {"--json", "--full"}:
+    names = [word for word in words if word not in switches]
+    if len(names) != 1 or not switches <= SWITCHES or switches >= {"--json", "--full"}:
         return None
-    (named,) = (word for word in words if word not in switches)
+    named = names[0]
     if not (os.path.isfile(named) if named.endswith((".yaml", ".yml")) else not _is_path(named)):
         return None
     from ..advice import recommend as advisor

@@ -96,7 +96,7 @@ def _weighted_median(values, weights) -> float:
 
 def _ratios(one, other, corrected) -> tuple[float, float, float]:
     """Median |ln ratio| of the brightest quarter of the pairs, of the dimmer half, and of that half `corrected`."""
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         before, after = np.abs(np.log(one / other)), np.abs(np.log(corrected[0] / corrected[1]))
     known = np.isfinite(before) & np.isfinite(after)
     if not np.any(known):

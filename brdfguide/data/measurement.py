@@ -66,6 +66,16 @@ class Measurement(KeepsFormed):
             return np.where((np.abs(self.brdf) < LARGEST) & self.geom.lit, self.brdf, np.nan)
 
     @cached_property
+    def stated_errors(self) -> np.ndarray | None:
+        """(samples, channels) [1/sr]: standard errors of a size that can be, NaN elsewhere; None where no value that is
+        clear of the dark level has one."""
+        if self.stderr is None:
+            return None
+        with np.errstate(invalid="ignore"):
+            known = (self.stderr >= 0) & (self.stderr < LARGEST)
+        return np.where(known, self.stderr, np.nan) if known[self.clear].any() else None
+
+    @cached_property
     def has_value(self) -> np.ndarray:
         """(samples,): where any channel has a value that a fit looks at."""
         return np.any(self.weighed, axis=1)

@@ -114,7 +114,7 @@ def _relative_and_absolute(level, departure) -> tuple[float, float] | None:
     parts = two_parts(level.ravel(), departure.ravel())
     if parts is not None:
         return parts
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         sizes = np.abs(departure / level)
     sizes = sizes[np.isfinite(sizes)]
     return (float(SIGMA_PER_MEDIAN * np.median(sizes)), 0.0) if len(sizes) >= 20 else None

@@ -151,8 +151,11 @@ def _of_the_form(data: Measurement, looked: _Looked, counted, scale: float) -> t
 
 def _most_unlike(data: Measurement, free: factored.Factors, of_model: factored.Factors, share) -> Unlike | None:
     """Of lobe, Fresnel's factor and masking the one whose ratio to the model's varies most over the data; each
-    direction counts by the squared share of the lobe in it. None where factors only stand in for each other.
+    direction counts by the squared share of the lobe in it. None where no direction holds a lobe, and where factors
+    only stand in for each other.
     """
+    if not np.sum(share) > 0:
+        return None
     geom = data.geom
     tan_h = np.sqrt(np.ravel(geom.tan2_h))
     tilt, difference = np.arctan(tan_h), np.arccos(np.minimum(np.ravel(geom.cos_d), 1.0))

@@ -182,9 +182,9 @@ def noise_of(along) -> float:
 
 def stated_noise(measurement: Measurement) -> float:
     """Relative standard error of a single value as it is stated, median; 0 where none is."""
-    if measurement.stderr is None:
+    if measurement.stated_errors is None:
         return 0.0
-    relative = (measurement.stderr / measurement.brdf)[measurement.clear]
+    relative = measurement.stated_errors[measurement.clear] / measurement.brdf[measurement.clear]
     relative = relative[np.isfinite(relative)]
     return float(np.median(relative)) if relative.size else 0.0
 

@@ -27,13 +27,14 @@ def of_values(measurement: Measurement, kind: str = "auto") -> np.ndarray:
     if kind not in KINDS:
         raise choices("weighting", kind, KINDS)
     weights = np.ones_like(measurement.brdf)
-    if kind == "stderr" and measurement.stderr is None:
+    errors = measurement.stated_errors
+    if kind == "stderr" and errors is None:
         raise InputError(f"{measurement.name}: the data bring no standard errors to weigh by")
-    if kind in ("auto", "stderr") and measurement.stderr is not None:
+    if kind in ("auto", "stderr") and errors is not None:
         size = (
             measurement.brdf if measurement.noise is None else np.hypot(measurement.brdf, 2 * measurement.noise.floor)
         )
-        relative = np.where(measurement.weighed, measurement.stderr / np.where(measurement.weighed, size, 1.0), np.nan)
+        relative = np.where(measurement.weighed, errors / np.where(measurement.weighed, size, 1.0), np.nan)
         floor = 0.1 * np.nanmedian(relative[measurement.clear])  # one lucky sample must not decide
         weights = np.where(np.isfinite(relative), 1 / np.clip(relative, max(floor, 1e-12), 1e6) ** 2, 0.0)
     counted = sample_weights(measurement, kind)
@@ -61,7 +62,7 @@ def sample_weights(measurement: Measurement, kind: str = "auto") -> np.ndarray |
 def weighing(measurement: Measurement, kind: str = "auto") -> tuple[Finding, ...]:
     """What weighs the values, for people."""
     found = []
-    if kind in ("auto", "stderr") and measurement.stderr is not None:
+    if kind in ("auto", "stderr") and measurement.stated_errors is not None:
         found.append(
             Finding("weighed-by-stderr", "each value is weighed by its standard error", option="--weights none")
         )

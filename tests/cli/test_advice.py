@@ -60,7 +60,16 @@ def test_an_answer_without_the_full_parser_is_the_same(words, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "words", ["nosuch", "examples/rough_plastic.csv", "porcelain --json --full", "porcelain gold-leaf", "-", "--help"]
+    "words",
+    [
+        "nosuch",
+        "examples/rough_plastic.csv",
+        "porcelain --json --full",
+        "porcelain gold-leaf",
+        "-",
+        "--help",
+        "--json --json",
+    ],
 )
 def test_all_else_is_left_to_the_full_parser(words):
     assert answered_description(words.split()) is None

@@ -139,3 +139,35 @@ def test_a_number_beyond_arithmetic_is_a_lost_value_in_a_table_of_parts_too(tmp_
     monkeypatch.setattr("brdfguide.data.formats.parquet.LARGEST_CELLS", 1)
     parts = list(formats.in_blocks(tmp_path / "it.parquet"))
     assert [int(np.count_nonzero(part.has_value)) for part in parts] == [2]
+
+
+def scans(level: float, shine: float, errors=None) -> str:
+    """Three scans of a lobe `shine` [1/sr] high on a level; standard errors that are stated, in turn."""
+    lines = ["theta_i,theta_r,brdf" + (",stderr" if errors else "")]
+    for place, (i, r) in enumerate((i, r) for i in (10, 30, 50) for r in range(-60, 61, 4)):
+        value = float(level + shine * np.exp(-(((r - i) / 12) ** 2)))
+        lines.append(f"{i},{r},{value!r}" + (f",{errors[place % len(errors)]}" if errors else ""))
+    return "\n".join(lines) + "\n"
+
+
+def fitted(tmp_path, content):
+    prepared = examine.prepared(read(tmp_path, content), anyway=True)
+    return compare(prepared, candidates.of_kind(None, ("lambertian+ggx", "lambertian")))
+
+
+@pytest.mark.parametrize("error", ["1e308", "1e150", "-1", "nan"])
+def test_a_standard_error_that_none_can_be_weighs_nothing(tmp_path, error):
+    """It is as if its value were not there; where all are such, as if none were stated."""
+    text = scans(0.1, 1.0, ["0.01", "0.01", error])
+    some, without = fitted(tmp_path, text), fitted(tmp_path, re.sub(rf".*,{error}\n", "", text))
+    for key, value in without.rows[0].fit.surface.values.items():
+        assert some.rows[0].fit.surface.values[key] == pytest.approx(value, rel=1e-4)
+    measurement = read(tmp_path, scans(0.1, 1.0, [error]))
+    assert measurement.stated_errors is None
+    assert fitted(tmp_path, scans(0.1, 1.0, [error])).rows[0].rms_ln == fitted(tmp_path, scans(0.1, 1.0)).rows[0].rms_ln
+
+
+@pytest.mark.parametrize("scale", [1e-91, 1e90])
+def test_a_level_at_the_end_of_arithmetic_is_fitted_or_refused(tmp_path, scale):
+    """No law is that dim or bright, and none has a lobe there whose factors could be compared."""
+    assert fitted(tmp_path, scans(0.1 * scale, scale)).rows[0].fit.rms_ln > 0.5
