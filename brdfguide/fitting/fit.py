@@ -15,7 +15,7 @@ from ..models.extensions import edge_starts
 from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
 from . import drift, starting_grid, weights
-from .diagnostics import profile_intervals, sigma_bound, standard_errors, unnoticed_faults
+from .diagnostics import profile_intervals, scan_gains, sigma_bound, standard_errors, unnoticed_faults
 from .followed import follow
 from .layout import Layout
 from .objective import METRICS, metric
@@ -61,6 +61,7 @@ class Fit:
     warnings: tuple[Finding, ...] = ()
     instrument: drift.Drift | None = None  # fitted beside the model, and not in the residuals
     missed: float | None = None  # relative error that was expected of bright values; None where that decides nothing
+    ln_scan_gains: float = 0.0  # standard deviation of ln gain between the scans of a turned sample, beyond their noise
 
     @property
     def model(self) -> Composite:
@@ -136,13 +137,16 @@ def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOpti
     else:
         variances = best.normal.scatter(np.sqrt(variance * unlike), *best.at_minimum[1:])
     stderr = standard_errors.standard_errors(layout, values, *variances, part, correlation)
+    of_model = on.misfit(layout, metric(options.metric))
+    scans = None if pruned or data.scans is None else data.scans[on.rows]
+    stderr, ln_scan_gains = scan_gains.with_scan_gains(layout, values, stderr, best, of_model, scans)
     wrong = standard_errors.discrepancy(part, correlation, score)
     if wrong and not pruned:
         wide = standard_errors.errors_of_a_wrong_model(
             layout, values, best.normal, best.at_minimum, [each[on.rows] for each in data.blocks]
         )
         stderr = {key: np.maximum(error, wide[key]) for key, error in stderr.items()}
-    stderr = unnoticed_faults.with_faults(layout, values, stderr, best, on.misfit(layout, metric(options.metric)))
+    stderr = unnoticed_faults.with_faults(layout, values, stderr, best, of_model)
     together = variance * standard_errors.serial_widening(correlation) * standard_errors.common_channels(part)
     warnings = list(standard_errors.parameter_doubts(layout, values, stderr, best.normal, together))
     warnings += [wrong] if wrong and standard_errors.worth_telling(wrong) else []
@@ -152,9 +156,7 @@ def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOpti
     )
     warnings = sigma_bound.in_place_of(warnings, slopes_alone)
     if not wrong and not pruned:
-        warnings += profile_intervals.curved_doubts(
-            layout, on.misfit(layout, metric(options.metric)), best, values, stderr
-        )
+        warnings += profile_intervals.curved_doubts(layout, of_model, best, values, stderr)
     if pruned:
         text = f"its error is more than {PRUNED:g} times the best: searched for, not refined"
         warnings.append(Finding("coarse", text, "note"))
@@ -172,6 +174,7 @@ def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOpti
         best.converged,
         tuple(warnings),
         missed=data.missed,
+        ln_scan_gains=ln_scan_gains,
     )
 
 
@@ -276,7 +279,10 @@ def _beside_the_instrument(fits: list[Fit], layouts: list[Layout], data: Prepare
     if not drift.explains(known[best], data, _adjusted_residuals(fits[best], known[best], data)[1]):
         return fits
     known |= {place: each for place in refined if place not in found and (each := adjusted(place)) is not None}
-    return [_adjusted(each, known[place], data) if place in known else each for place, each in enumerate(fits)]
+    return [
+        _adjusted(each, layouts[place], known[place], data) if place in known else each
+        for place, each in enumerate(fits)
+    ]
 
 
 def _adjusted_residuals(one: Fit, found: drift.Adjusted, data: Prepared) -> tuple[np.ndarray, np.ndarray]:
@@ -286,7 +292,7 @@ def _adjusted_residuals(one: Fit, found: drift.Adjusted, data: Prepared) -> tupl
     return residuals, _where_settled(data, residuals, surface, found.drift)
 
 
-def _adjusted(one: Fit, found: drift.Adjusted, data: Prepared) -> Fit:
+def _adjusted(one: Fit, layout: Layout, found: drift.Adjusted, data: Prepared) -> Fit:
     """A fit with what was fitted beside it; its errors are without what the instrument did."""
     residuals, part = _adjusted_residuals(one, found, data)
     correlation, score = standard_errors.serial_correlation(part, data.orders)
@@ -295,6 +301,12 @@ def _adjusted(one: Fit, found: drift.Adjusted, data: Prepared) -> Fit:
     stderr = {key: widening * error for key, error in found.stderr.items()}
     if wrong:
         stderr = {key: np.maximum(error, one.stderr[key]) for key, error in stderr.items()}
+    ln_scan_gains = 0.0
+    if data.scans is not None:
+        left = drift.without_drift(data.fewer.measurement, found.drift)
+        misfit = replace(data.fewer.misfit(layout, METRICS["ln"]), measurement=left)
+        best, scans = misfit.descend(found.at, 1e-6), data.scans[data.fewer.rows]
+        stderr, ln_scan_gains = scan_gains.with_scan_gains(layout, found.values, stderr, best, misfit, scans)
     doubts = [wrong] if wrong else [drift.instrument_finding(found.drift)]
     return replace(
         one,
@@ -304,6 +316,7 @@ def _adjusted(one: Fit, found: drift.Adjusted, data: Prepared) -> Fit:
         rms_ln=rms(residuals, data.compared_weights),
         warnings=(*drift.without_discrepancy(one.warnings), *doubts),
         instrument=found.drift,
+        ln_scan_gains=ln_scan_gains,
     )
 
 

@@ -53,6 +53,7 @@ class Prepared:
     search: Subset  # few directions, few channels
     orders: list  # of the rows of `settle`
     blocks: list  # of neighbours in each order
+    scans: np.ndarray | None  # the number of each of these rows' scan, where the sample was turned between them
     sample_weights: np.ndarray | None  # of the directions of `whole`
 
     @property
@@ -107,7 +108,8 @@ def prepare(measurement: Measurement, weighting: str = "auto") -> Prepared:
     search = Subset(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])
     orders = standard_errors.orderings(settle.measurement)
     blocks = [standard_errors.blocks_of(settle.measurement, orders[0]), *map(standard_errors.even_blocks, orders[1:])]
-    if (scans := standard_errors.whole_scans(settle.measurement)) is not None:
+    scans = standard_errors.whole_scans(settle.measurement)
+    if scans is not None:
         blocks.append(scans)
     return Prepared(
         measurement,
@@ -119,6 +121,7 @@ def prepare(measurement: Measurement, weighting: str = "auto") -> Prepared:
         search,
         orders,
         blocks,
+        scans,
         weights.sample_weights(measurement, weighting),
     )
 

@@ -9,7 +9,7 @@ from brdfguide.data.measurement import Measurement
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting import grain_walk
 from brdfguide.fitting.compare import compare
-from brdfguide.fitting.diagnostics import standard_errors
+from brdfguide.fitting.diagnostics import scan_gains, standard_errors
 from brdfguide.fitting.fit import FitOptions
 from brdfguide.fitting.job import Job, case_of
 from brdfguide.fitting.layout import Layout
@@ -169,6 +169,46 @@ def test_the_ratio_has_an_interval_in_which_both_widths_err_together(law):
         assert known["ggx-aniso.alpha"]["stderr"] > 0
     else:
         assert found.stderr["he-torrance-aniso.ratio"] > 0 and "he-torrance-aniso.ratio" not in known
+
+
+def with_gains(seed: int, spread: float):
+    """Sixteen scans of a grain, each with a gain of its own, and what the grain is."""
+    draw = np.random.default_rng([seed, 2301])
+    alpha, ratio = np.exp(draw.uniform(np.log([0.08, 1.3]), np.log([0.3, 5.0])))
+    axis = draw.uniform(0, np.pi)
+    widths = {"alpha_x": alpha * ratio**0.5, "alpha_y": alpha * ratio**-0.5}
+    clean = scans("ggx-aniso", [0.0, 45, 90, 135], seed=seed, **widths, axis=axis)
+    gains = np.exp(spread * draw.normal(size=16))
+    scan = standard_errors.whole_scans(clean)
+    return Measurement(clean.geom, clean.brdf * gains[scan][:, None]), ratio, axis
+
+
+@pytest.mark.parametrize("spread", [0.02, 0.005])
+def test_intervals_of_a_grain_hold_where_each_scan_has_a_gain_of_its_own_with_seeds_0_to_23(spread):
+    """Also where a gain for each incidence, the same under all turns, explains what is seen along the scans."""
+    off = []
+    for seed in range(24):
+        measurement, ratio, axis = with_gains(seed, spread)
+        found = fitting.fit(free("ggx-aniso"), measurement)
+        known = errors_of_grain(found, measurement)["ggx-aniso.ratio"]
+        fitted = found.values["ggx-aniso.alpha_x"] / found.values["ggx-aniso.alpha_y"]
+        turned = np.remainder(found.values["ggx-aniso.axis"] - axis + np.pi / 2, np.pi) - np.pi / 2
+        off.append((np.log(fitted / ratio) * fitted / known["stderr"], turned / found.stderr["ggx-aniso.axis"]))
+    assert np.all(np.sqrt(np.mean(np.square(off), axis=0)) < 1.4)
+    assert np.all(np.count_nonzero(np.abs(off) > 2, axis=0) <= 3)
+
+
+def test_scans_of_one_gain_have_no_wider_intervals_with_seeds_0_to_9(monkeypatch):
+    cases = [with_gains(seed, 0.0)[0] for seed in range(10)]
+
+    def errors():
+        found = [fitting.fit(free("ggx-aniso"), each) for each in cases]
+        known = [errors_of_grain(*each)["ggx-aniso.ratio"]["stderr"] for each in zip(found, cases, strict=True)]
+        return np.array([known, [each.stderr["ggx-aniso.axis"] for each in found]])
+
+    with_spread = errors()
+    monkeypatch.setattr(scan_gains, "with_scan_gains", lambda layout, values, stderr, *_: (stderr, 0.0))
+    assert np.all(np.median(with_spread / errors(), axis=1) < 1.1)
 
 
 def test_scans_under_other_turns_err_apart(monkeypatch):

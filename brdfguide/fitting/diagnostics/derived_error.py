@@ -2,7 +2,8 @@
 
     Var ln y = gᵀ C g,   g_k = d ln y/dp_k,   C_kl = ρ_kl s_k s_l
 
-The s are the fit's standard errors, with all that widens them; the ρ are those of (JᵀJ)⁻¹, J of ln f by the parameters.
+The s are the fit's standard errors, with all that widens them; the ρ are those of (JᵀJ)⁻¹, J of ln f by the parameters,
+and where scans of a turned sample have gains of their own those of (JᵀJ)⁻¹Jᵀ(σ² + τ² ZZᵀ)J(JᵀJ)⁻¹, as in `scan_gains`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -12,6 +13,7 @@ import numpy as np
 from ...data.measurement import Measurement
 from ..fit import Fit
 from ..reading import reading
+from .standard_errors import whole_scans
 
 STEP = 1e-4  # of a value, for central differences
 
@@ -30,8 +32,9 @@ def ln_stderrs(fit: Fit, measurement: Measurement, numbers: Sequence[Callable[[M
     if not np.all(size > 0):
         return [float("inf")] * len(numbers)
     inverse = np.linalg.pinv((slopes[known] / size).T @ (slopes[known] / size))
-    spread = np.sqrt(np.diag(inverse))
-    correlation = inverse / spread / spread[:, None]
+    covariance = inverse + _by_gains(fit, measurement, inverse, slopes / size)
+    spread = np.sqrt(np.diag(covariance))
+    correlation = covariance / spread / spread[:, None]
     errors = np.array([np.ravel(fit.stderr[key])[place] for key, place in free])
     found = []
     for of in numbers:
@@ -40,6 +43,19 @@ def ln_stderrs(fit: Fit, measurement: Measurement, numbers: Sequence[Callable[[M
         known = bool(np.all(np.isfinite(weighed)))
         found.append(float(np.sqrt(weighed @ correlation @ weighed)) if known else float("inf"))
     return found
+
+
+def _by_gains(fit: Fit, measurement: Measurement, inverse: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """(JᵀJ)⁻¹Jᵀ ZZᵀ J(JᵀJ)⁻¹ τ²/σ², of as many values as the fit had; 0 where scans have no gains of their own."""
+    scan = whole_scans(measurement)
+    if fit.ln_scan_gains == 0 or scan is None:
+        return np.zeros_like(inverse)
+    number = np.broadcast_to(scan[:, None], measurement.brdf.shape)[measurement.clear]
+    usable = np.isfinite(slopes).all(axis=1)
+    pulls = np.stack([np.bincount(number[usable], column[usable]) for column in slopes.T], axis=1)
+    moved = pulls @ inverse
+    ratio = fit.ln_scan_gains**2 / max(fit.rms_ln**2 - fit.ln_scan_gains**2, 1e-30)
+    return ratio * len(fit.residuals) / len(measurement.brdf) * moved.T @ moved
 
 
 def _slope(fit: Fit, measurement: Measurement, key: str, place: int) -> np.ndarray:
