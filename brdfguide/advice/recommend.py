@@ -63,6 +63,7 @@ class Proposal:
 class Recommendation:
     """A filled material with what was said about it; `candidates` best first, empty outside the domain."""
 
+    described: Material  # before anything was filled
     material: Material
     advice: tuple[Advice, ...]
     silent: tuple
@@ -71,8 +72,6 @@ class Recommendation:
     evidence: str
     candidates: tuple[Proposal, ...]
     left_out: Mapping[str, str]
-    effects: Mapping[str, str]  # key of an observation -> what leaving it out changes, see EFFECTS
-    rests_on: Mapping[str, tuple[str, ...]]  # rule -> keys without which it would be silent or say something else
     inference: Inference | None  # from what was read of roughness and index; None: nothing was
 
     def headed_by(self, model: str, why: str) -> "Recommendation":
@@ -80,6 +79,21 @@ class Recommendation:
         first = next(each for each in self.candidates if each.model.name == model)
         rest = tuple(each for each in self.candidates if each is not first)
         return replace(self, candidates=(replace(first, why=why), *rest))
+
+    @cached_property
+    def _left_out_in_turn(self) -> tuple[dict[str, str], dict[str, tuple[str, ...]]]:
+        """Found when asked for: it takes an answer for each observation."""
+        return _effects(self.described)
+
+    @property
+    def effects(self) -> Mapping[str, str]:
+        """Key of an observation -> what leaving it out changes, see EFFECTS."""
+        return self._left_out_in_turn[0]
+
+    @property
+    def rests_on(self) -> Mapping[str, tuple[str, ...]]:
+        """Rule -> keys without which it would be silent or say something else."""
+        return self._left_out_in_turn[1]
 
     @property
     def reasons(self) -> tuple[Advice, ...]:
@@ -116,8 +130,8 @@ def recommend(described: Material, anyway: bool = False, names=None) -> Recommen
         else tuple(_candidate(name, why, by, filled) for name, (why, by) in chosen.items())
     )
     verdict, evidence = _verdict(filled, advice)
-    effects, rests_on = _effects(described)
     return Recommendation(
+        described,
         filled,
         advice,
         consultation.silent,
@@ -126,8 +140,6 @@ def recommend(described: Material, anyway: bool = False, names=None) -> Recommen
         evidence,
         shown,
         left_out,
-        effects,
-        rests_on,
         filled.inference,
     )
 

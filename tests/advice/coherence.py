@@ -7,7 +7,9 @@ to the light; a colour that was not observed is grey, and it is said.
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from types import MappingProxyType
 
 import numpy as np
 
@@ -16,6 +18,13 @@ from brdfguide.physics.geometry import in_plane
 from brdfguide.report.documents.recommendation import document
 
 COLOURED = ("f0", "index", "diffuse_reflectance", "composition", "base_color")  # what may bring a colour
+
+
+class _Unasked(recommend.Recommendation):
+    """An answer of which nobody asks what leaving out each observation changes."""
+
+    effects: Mapping = MappingProxyType({})
+    rests_on: Mapping = MappingProxyType({})
 
 
 def faults(made: material.Material) -> Iterator[str]:
@@ -31,7 +40,7 @@ def faults(made: material.Material) -> Iterator[str]:
             rest = recommend.recommend(
                 material.from_values(recommend.without_key(made.given, key), made.name), anyway=True
             )
-            other = document(rest, timing=False)
+            other = document(_Unasked(**{each.name: getattr(rest, each.name) for each in fields(rest)}), timing=False)
             for part in ("candidates", "advice", "verdict", "domain"):
                 ours, theirs = (_bare(each[part]) for each in (said, other))
                 if ours != theirs:
