@@ -96,6 +96,13 @@ def evidence_of(material: Material) -> Evidence | None:
     )
 
 
+def shows_highlight(material: Material) -> bool:
+    """Whether a highlight was seen, or read beyond what a white body alone gives a glossmeter."""
+    readings = (material.gloss or {}).items()
+    read = any(units > gloss.DIFFUSE[angle] + gloss.tolerance(units) for angle, units in readings)
+    return read or material.highlight_width is not None or material.finish not in (None, "matt")
+
+
 def _doubt(material: Material, key: str, value: float = 1.0) -> float:
     """The stated doubt as a share of `value`, or the usual one as it stands."""
     stated = (material.doubts or {}).get(key)

@@ -27,6 +27,7 @@ GRAIN = 4.0  # width across a grain over that along it: brushed metals have 2 to
 RETRO_SHARE = 0.3
 RETRO_ALPHA = 0.0185
 WATER_N = 1.33
+STEEP_SLOPE = 0.3  # sigma/tau from which bumps strain the theory (Westin et al. 2004, section 5.2)
 # for a high gloss of unknown sigma: 37 % of the mirror image is lost at normal incidence, none at grazing
 MIRROR_SIGMA_UM = 0.03
 
@@ -100,8 +101,14 @@ def _facets(model: Composite, of_term: Model, material: Material) -> Facets:
         sigma=own.get("sigma") or _sigma(of_term, material),
         slope=own.get("slope") or material.slope or 0.075,
         albedo=material.albedo or (0.18,),
-        spread=min(atan((material.alpha or 0.5) / sqrt(2)), 1.2),
+        spread=_spread(material),
     )
+
+
+def _spread(material: Material) -> float:
+    """Spread of the tilts of a body's facets [rad]: the highlight's, unless they are said to be steep."""
+    least = atan(sqrt(2) * STEEP_SLOPE) if material.steep else 0.0
+    return min(max(atan((material.alpha or 0.5) / sqrt(2)), least), 1.2)
 
 
 def _clear(material: Material) -> tuple[float, ...]:

@@ -42,6 +42,26 @@ def test_a_brushed_metal_has_a_streak_across_its_grain():
     assert across > 5 * along
 
 
+@pytest.mark.parametrize("gloss, law", [("{60: 12}", "beckmann"), ("{60: 15, 85: 25}", "he-torrance")])
+def test_leather_has_the_highlight_that_was_read_over_a_body_of_steep_bumps(gloss, law):
+    pick = first(f"composition: leather\nsteep: true\nbase_color: '#3a2214'\ngloss: {gloss}")
+    assert pick.model.name == f"oren-nayar+{law}"
+    assert pick.gloss[60] == pytest.approx(12 if law == "beckmann" else 15, abs=1)
+    assert np.tan(pick.start["oren-nayar.spread"]) == pytest.approx(0.3 * np.sqrt(2))  # sigma/tau 0.3, along a line
+
+
+def test_house_paint_stays_without_a_highlight():
+    assert first("composition: paint\nsteep: true\nfinish: matt\ngloss: {60: 1}").model.name == "oren-nayar"
+
+
+@pytest.mark.parametrize("composition, body", [("wood", "lambertian+"), ("gold", "")])
+def test_beside_gaussian_facets_stands_ggx_which_renderers_have(composition, body):
+    seen = f"composition: {composition}\nhighlight_width_deg: {9 if body else 1.5}\nfinish: "
+    found = recommend(parse_material(seen + ("satin\ngloss: {60: 42}" if body else "mirror"))).candidates
+    assert [each.model.name for each in found[:2]] == [f"{body}beckmann", f"{body}ggx"]
+    assert "which would read" in found[1].why and found[1].start["ggx.alpha"] != found[0].start["beckmann.alpha"]
+
+
 def test_wet_stone_is_darker_than_dry():
     wet = first("composition: stone\nwet: true\ndiffuse_reflectance: 0.4")
     assert wet.model.name == "coated:lambertian" and wet.start["coat.n"] == 1.33

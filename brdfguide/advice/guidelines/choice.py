@@ -7,6 +7,7 @@ from math import degrees, pi
 from typing import cast
 
 from ...physics import gloss
+from ..evidence import shows_highlight
 from ..inference import Inference
 from ..material import Material, said_to_be_grained
 from ..start_values import GRAIN
@@ -223,6 +224,15 @@ def kind_open(material: Material) -> Advice | None:
     return Advice("a candidate for each kind, since neither is known; do not mix them", "kind not known", prefers=names)
 
 
+@rule("3.1, 3.2.2")
+def steep_with_highlight(material: Material) -> Advice | None:
+    """Steep bumps, and a highlight all the same: Oren-Nayar's body under the lobe that gives it."""
+    if not material.steep or material.subsurface != "lambertian" or not shows_highlight(material):
+        return None
+    says = "Oren-Nayar's body for the steep bumps, and a lobe above it for the highlight that was seen"
+    return Advice(says, "steep, with a highlight", prefers=(f"oren-nayar+{_met_by(material)}", "oren-nayar"))
+
+
 @rule("3.1")
 def grained(material: Material) -> Advice | None:
     """A grain: GGX with two widths, in the ratio that was seen or that is usual."""
@@ -251,7 +261,8 @@ def seen_through_rough_glass(material: Material) -> Advice | None:
     n = material.n[len(material.n) // 2] if material.n else 1.5
     says = (
         f"for what is seen through it, type transmission 1, index {n:.3g}, roughness {material.alpha**0.5:.2f} "
-        f"(the square root of alpha {material.alpha:.2g}) in the renderer; the models here only reflect"
+        f"(the square root of alpha {material.alpha:.2g}) and a white base colour in the renderer, which would else "
+        f"tint it; the models here only reflect, and have black there"
     )
     return Advice(says, "a clear body with a rough surface", domain="flagged")
 
@@ -309,6 +320,7 @@ def nearest_is_far(material: Material) -> Advice | None:
 
 
 RULES = (
+    steep_with_highlight,
     grained,
     flake_paint,
     coated,

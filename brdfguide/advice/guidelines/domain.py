@@ -1,6 +1,7 @@
 """Whether the report speaks about this surface at all (section 3.1, D1 to D9)."""
 
 from ...physics.substances import kind_of_words
+from ..evidence import shows_highlight
 from ..material import Material, said_to_be_grained
 from .guideline import Advice, rule
 
@@ -133,7 +134,7 @@ def moderate_slopes(material: Material) -> Advice | None:
         "steep, like sandpaper or flat house paint",
         domain="flagged",
         needs="Oren-Nayar for the body",
-        prefers=("oren-nayar", "oren-nayar+ggx"),
+        prefers=() if shows_highlight(material) else ("oren-nayar", "oren-nayar+ggx"),
     )
 
 

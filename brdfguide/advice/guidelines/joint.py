@@ -167,7 +167,8 @@ def law_that_gives_the_readings(material: Material) -> Advice | None:
     failing = [each for each in found.laws if not each.unexplained and (not each.meets or each.squares > better)]
     if not failing:
         return None
-    body = "lambertian+" if material.subsurface == "lambertian" else ""
+    below = "oren-nayar+" if material.steep else "lambertian+"
+    body = below if material.subsurface == "lambertian" else ""
     drops = {each.name: _shortfall(each, found.evidence) for each in failing}
     alone = len(failing) == len(found.laws) - 1
     which = "the only one" if alone else "the plainest"

@@ -174,6 +174,11 @@ RULES = {
         "72.1° in red light (650 nm), 77.7° in blue",
         "emergence_angle_deg: never",
     ),
+    "steep_with_highlight": (
+        "composition: leather\nsteep: true\ngloss: {60: 12}",
+        "Oren-Nayar's body for the steep bumps, and a lobe above it",
+        "composition: leather\nsteep: true\nfinish: matt",
+    ),
     "grained": ("composition: brass\ntexture: brushed", "GGX with a grain", "composition: brass"),
     "water_over_it": (
         "composition: stone\nwet: true\ndiffuse_reflectance: 0.4",
