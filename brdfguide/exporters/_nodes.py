@@ -118,16 +118,19 @@ class Node:
         """The weight of the lobe where the index alone does not carry it."""
         return (self.weight,) if self.weight == "specular" and not self.edge else ()
 
-    def polished(self, body: bool) -> dict[str, TargetModel]:
-        """A base of roughness 0."""
+    def polished(self, body: bool, dielectric_first: bool = False) -> dict[str, TargetModel]:
+        """A base of roughness 0; metal and bare dielectric often look alike."""
         smooth = {self.roughness: 0.0}
         edge = (self.edge,) if self.edge else ()
         free = (self.index, *self._free_weight())
         if body:
             return {"dielectric": self.target(("base_color", *free), **smooth)}
         metal = {self.metalness: 1.0}
-        targets = {"metal": self.target(("base_color", *edge), **smooth, **metal)}
-        return targets | {"dielectric": self.target(free, base_color=0.0, **smooth)}
+        targets = {
+            "metal": self.target(("base_color", *edge), **smooth, **metal),
+            "dielectric": self.target(free, base_color=0.0, **smooth),
+        }
+        return dict(reversed(targets.items())) if dielectric_first else targets
 
     def coated(self, body: bool, n: float | None = None) -> dict[str, TargetModel]:
         """A smooth coat over a body, with or without a lobe, over a metal; a polished base under a rough coat.
@@ -217,7 +220,8 @@ def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> 
             _with_mirror(node, surface, geom, own_target) if surface.has_mirror else choose(surface, geom, own_target)
         )
     if is_smooth(surface):
-        return replace(_with_mirror(node, surface, geom, node.polished(body)), brdf=None)
+        polished = node.polished(body, _is_dielectric(surface))
+        return replace(_with_mirror(node, surface, geom, polished), brdf=None)
     if surface.has_mirror:
         if any(term.model.settings for term in surface.model.terms):  # a shader's own base may be the mirror
             polished = _with_mirror(node, surface, geom, node.polished(body))

@@ -21,6 +21,8 @@ from ..physics.geometry import Geometry
 from .facts import MIRROR_DEG, Candidacy, Facets, Formula
 from .model import Derived, Extreme, Model, Parameter, Pin, at
 
+NARROWEST = 1e4  # exponent of a lobe: 1.35° wide at half height
+
 
 def brdf(geom: Geometry, *, ks, tilt, exponent) -> np.ndarray:
     """Lobe [1/sr], in the shape of `geom`."""
@@ -85,8 +87,10 @@ def _ln_base(geom: Geometry, rest, c_xy, both):
 
 def from_facets(facets: Facets) -> dict:
     """The one lobe that grows toward grazing as the facets do, as near as it can."""
-    tilt, height = _following(facets.growth, facets.mirror_exponent)
-    return {"ks": tuple(each * height for each in facets.peak), "tilt": tilt, "exponent": facets.mirror_exponent}
+    exponent = min(facets.mirror_exponent, NARROWEST)
+    tilt, height = _following(facets.growth, exponent)
+    height *= exponent / facets.mirror_exponent  # the same light in a lobe that may be wider
+    return {"ks": tuple(each * height for each in facets.peak), "tilt": tilt, "exponent": exponent}
 
 
 @lru_cache(maxsize=256)
@@ -123,7 +127,13 @@ MODEL = Model(
             starts=(0.1, 0.75, 1.0, -0.75),
         ),
         Parameter(
-            "exponent", 10.0, 0.3, 1e4, log=True, meaning="n: narrowness", starts=(1.0, 4.0, 20.0, 100.0, 600.0, 4000.0)
+            "exponent",
+            10.0,
+            0.3,
+            NARROWEST,
+            log=True,
+            meaning="n: narrowness",
+            starts=(1.0, 4.0, 20.0, 100.0, 600.0, 4000.0),
         ),
     ),
     gradient=gradient,

@@ -48,6 +48,15 @@ def test_a_lafortune_lobe_follows_the_facets_it_stands_for_within_a_factor_of_fo
         assert 1 / 4 < ratio < 4
 
 
+def test_a_lafortune_lobe_that_cannot_be_as_narrow_has_no_more_light():
+    light = []
+    for width in (1.6, 0.4):
+        _, values, _ = started("lafortune", f"kind: dielectric\nappearance: black\nhighlight_width_deg: {width}")
+        light.append(values["lafortune.ks"] / (values["lafortune.exponent"] + 1))
+    assert values["lafortune.exponent"] == 1e4
+    assert light[1] == pytest.approx(light[0], rel=0.01)
+
+
 def test_start_values_lie_inside_the_bounds_of_their_laws():
     for text in (
         "composition: silver\nfinish: mirror",

@@ -50,6 +50,12 @@ def test_leather_has_the_highlight_that_was_read_over_a_body_of_steep_bumps(glos
     assert np.tan(pick.start["oren-nayar.spread"]) == pytest.approx(0.3 * np.sqrt(2))  # sigma/tau 0.3, along a line
 
 
+def test_no_candidate_reads_far_more_gloss_than_was_read():
+    found = recommend(parse_material("composition: ABS\nfinish: satin\ngloss: {60: 35}\nemergence_angle_deg: 72"))
+    assert "lafortune" in found.left_out
+    assert max(each.gloss[60] for each in found.candidates) < 40
+
+
 def test_house_paint_stays_without_a_highlight():
     assert first("composition: paint\nsteep: true\nfinish: matt\ngloss: {60: 1}").model.name == "oren-nayar"
 

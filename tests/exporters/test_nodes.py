@@ -108,6 +108,14 @@ def test_what_is_far_off_says_what_the_shader_lacks():
     assert "Schlick" in why
 
 
+@pytest.mark.parametrize(
+    "target, metalness", [("openpbr", "base_metalness"), ("standard-surface", "metalness"), ("gltf", "metallic")]
+)
+def test_smooth_glass_is_no_metal(target, metalness):
+    written = exporters.export(target, of("mirror", {"n": 1.5})).statement.written
+    assert written[metalness] == 0
+
+
 def test_a_refusal_names_the_nearest_target_and_the_nearest_law_with_their_errors():
     with pytest.raises(NoAnswer) as refused:
         exporters.held_best("usd", [of("lambertian+ggx+mirror", {"ggx.alpha": 0.3})])

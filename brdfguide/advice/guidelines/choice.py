@@ -134,6 +134,11 @@ def low_gloss_dielectric(material: Material) -> Advice | None:
         ("ward", "phong", "phong-lewis", "blinn"),
         "its highlight brightens too little toward grazing for what is no metal",
     )
+    if material.gloss:
+        drops["lafortune"] = (
+            "one lobe of it that brightens as the index says stays as wide, and would read two or three times the "
+            "gloss at 60 degrees"
+        )
     if waves_show(material):
         says = (
             "He-Torrance's law, since a mirror image shows at low angles"

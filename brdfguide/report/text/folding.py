@@ -40,7 +40,7 @@ def broken(text: str, room: int) -> list[str]:
             lines.append(line)
         *whole, line = _parts(word, room)
         lines += whole
-    return [each.replace(TIED, " ") for each in (*lines, line)]
+    return [each.rstrip(" ").replace(TIED, " ") for each in (*lines, line)]
 
 
 def _parts(word: str, room: int) -> list[str]:
