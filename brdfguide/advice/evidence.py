@@ -189,9 +189,10 @@ def _base(material: Material) -> tuple[tuple[float, ...], float]:
     if material.kind != "metal":
         return (), 0.0
     n, k = (each[len(each) // 2] for each in (material.n or CHROMIUM[:1], material.k or CHROMIUM[1:]))
-    sure = "observed"
-    if material.n is None or "n" in material.filled_by:
-        sure = "unknown" if material.n is None else "named"
+    by = material.filled_by.get("n")
+    sure = "named" if by else "observed"
+    if material.n is None or by == "index_of_alloy":
+        sure = "unknown"
     return tuple(float(fresnel(cos(radians(angle)), n, k)) for angle in gloss.ANGLES), METAL_DOUBT[sure]
 
 

@@ -89,7 +89,7 @@ class Node:
             return replace(p, low=1e-3, log=True, starts=METAL_STARTS)
         return replace(p, linear=True)
 
-    def ordinary(self, body: bool, dielectric_first: bool = False) -> dict[str, TargetModel]:
+    def ordinary(self, body: bool, kind: str = "") -> dict[str, TargetModel]:
         """Matt or with a lobe over a body; metal or bare dielectric without one, which often look alike."""
         metal = {self.metalness: 1.0}
         edge = (self.edge,) if self.edge else ()
@@ -100,7 +100,7 @@ class Node:
             "metal": self.target(("base_color", *edge, self.roughness), **metal),
             "dielectric": self.target(dielectric[1:], base_color=0.0),
         }
-        return dict(reversed(targets.items())) if dielectric_first else targets
+        return _of_its_kind(targets, kind)
 
     def grained(self, body: bool, axis: float) -> dict[str, TargetModel]:
         """The same with a streak along an azimuth [rad]; round where the node has none."""
@@ -118,7 +118,7 @@ class Node:
         """The weight of the lobe where the index alone does not carry it."""
         return (self.weight,) if self.weight == "specular" and not self.edge else ()
 
-    def polished(self, body: bool, dielectric_first: bool = False) -> dict[str, TargetModel]:
+    def polished(self, body: bool, kind: str = "") -> dict[str, TargetModel]:
         """A base of roughness 0; metal and bare dielectric often look alike."""
         smooth = {self.roughness: 0.0}
         edge = (self.edge,) if self.edge else ()
@@ -130,7 +130,7 @@ class Node:
             "metal": self.target(("base_color", *edge), **smooth, **metal),
             "dielectric": self.target(free, base_color=0.0, **smooth),
         }
-        return dict(reversed(targets.items())) if dielectric_first else targets
+        return _of_its_kind(targets, kind)
 
     def coated(self, body: bool, n: float | None = None) -> dict[str, TargetModel]:
         """A smooth coat over a body, with or without a lobe, over a metal; a polished base under a rough coat.
@@ -204,10 +204,19 @@ def _is_coated(law: Model, values: Mapping) -> bool:
     return law.is_coat or coat is not None and any(np.any(values[name]) for name in coat.fixed)
 
 
-def _is_dielectric(surface: ColouredSurface) -> bool:
-    """Whether the surface's own index is that of something clear."""
+def _kind(surface: ColouredSurface) -> str:
+    """Metal or dielectric by the surface's own index, if it is that of a metal or of something clear."""
     n, k = fresnel_index(surface) or (np.inf, 0.0)
-    return bool(np.max(n) <= CLEAREST and not np.any(k))
+    if np.all(np.asarray(k) > 0):
+        return "metal"
+    return "dielectric" if np.max(n) <= CLEAREST and not np.any(k) else ""
+
+
+def _of_its_kind(targets: dict[str, TargetModel], kind: str) -> dict[str, TargetModel]:
+    """A metal as a metal alone; something clear as that first."""
+    if kind == "metal":
+        return {kind: targets[kind]}
+    return dict(reversed(targets.items())) if kind == "dielectric" else targets
 
 
 def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> Choice:
@@ -220,8 +229,8 @@ def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> 
             _with_mirror(node, surface, geom, own_target) if surface.has_mirror else choose(surface, geom, own_target)
         )
     if is_smooth(surface):
-        polished = node.polished(body, _is_dielectric(surface))
-        return replace(_with_mirror(node, surface, geom, polished), brdf=None)
+        smooth = node.polished(body, _kind(surface))
+        return replace(_with_mirror(node, surface, geom, smooth), brdf=None)
     if surface.has_mirror:
         if any(term.model.settings for term in surface.model.terms):  # a shader's own base may be the mirror
             polished = _with_mirror(node, surface, geom, node.polished(body))
@@ -233,7 +242,7 @@ def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> 
         return choose(surface, geom, node.grained(body, axis))
     rough = node.coat and any(_is_coated(term.model, surface.values_of(term)) for term in surface.model.terms)
     coated = node.under_rough(body, _coats_index(surface)) if rough else {}
-    return choose(surface, geom, node.ordinary(body, _is_dielectric(surface)) | coated)
+    return choose(surface, geom, node.ordinary(body, _kind(surface)) | coated)
 
 
 def what_it_costs(node: Node, surface: ColouredSurface, choice: Choice) -> tuple[str, ...]:

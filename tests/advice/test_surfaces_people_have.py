@@ -5,6 +5,7 @@ import pytest
 
 from brdfguide.advice.material import parse_material
 from brdfguide.advice.recommend import recommend
+from brdfguide.physics import fresnel, substances
 from brdfguide.physics.geometry import Geometry, in_plane
 
 
@@ -48,6 +49,17 @@ def test_leather_has_the_highlight_that_was_read_over_a_body_of_steep_bumps(glos
     assert pick.model.name == f"oren-nayar+{law}"
     assert pick.gloss[60] == pytest.approx(12 if law == "beckmann" else 15, abs=1)
     assert np.tan(pick.start["oren-nayar.spread"]) == pytest.approx(0.3 * np.sqrt(2))  # sigma/tau 0.3, along a line
+
+
+def test_an_alloy_has_the_colour_of_the_metal_it_is_named_for_and_it_is_said_how_far_that_may_be_off():
+    found = recommend(parse_material("composition: rose gold\nfinish: satin"))
+    [said] = [each.says for each in found.guesses if each.rule == "index_of_alloy"]
+    assert found.material.n == substances.find("gold").n
+    copper, brass = (
+        fresnel.f0(np.array(each.n), np.array(each.k)) for each in map(substances.find, ("copper", "brass"))
+    )
+    for change in brass / copper - 1:
+        assert f"{abs(change):.0%}".replace("%", " %") in said
 
 
 def test_no_candidate_reads_far_more_gloss_than_was_read():

@@ -4,6 +4,7 @@ import json
 import re
 from math import log, log1p
 
+import numpy as np
 import pytest
 
 from brdfguide import exporters
@@ -114,6 +115,12 @@ def test_what_is_far_off_says_what_the_shader_lacks():
 def test_smooth_glass_is_no_metal(target, metalness):
     written = exporters.export(target, of("mirror", {"n": 1.5})).statement.written
     assert written[metalness] == 0
+
+
+@pytest.mark.parametrize("lobe", ["ggx", "mirror"])
+def test_a_metal_is_no_glass_of_a_high_index(lobe):
+    written = exporters.export("gltf", of(lobe, {"n": 3.18, "k": 4.41})).statement.written
+    assert written["metallic"] == 1 and np.all(written["base_color"] > 0.5)
 
 
 def test_a_refusal_names_the_nearest_target_and_the_nearest_law_with_their_errors():

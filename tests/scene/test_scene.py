@@ -39,6 +39,11 @@ def test_five_scenes_are_worked():
     assert len(SCENES) == 5
 
 
+def test_the_page_of_the_scenes_tells_every_key():
+    page = (ROOT / "examples" / "scenes" / "README.md").read_text()
+    assert not [field.name for field in scene.FIELDS if f"| `{field.name}` |" not in page]
+
+
 def test_default_scene_leaves_no_angle_out():
     box = radiance.sample(scene.DEFAULT, 20000, 0, GLOSSY).box()
     for name in ("theta_i_deg", "theta_r_deg"):

@@ -174,6 +174,11 @@ RULES = {
         "72.1° in red light (650 nm), 77.7° in blue",
         "emergence_angle_deg: never",
     ),
+    "index_of_alloy": (
+        "composition: 18k gold",
+        "gold stands in for '18k gold'",
+        "composition: gold",
+    ),
     "steep_with_highlight": (
         "composition: leather\nsteep: true\ngloss: {60: 12}",
         "Oren-Nayar's body for the steep bumps, and a lobe above it",
