@@ -4,7 +4,8 @@ off too much.
     value - exchanged value = d (1/cos theta_i - 1/cos theta_r) + noise
 
 A signal that no light made is divided by the irradiance, which falls as cos theta_i, and so is brighter from grazing
-light; the surface itself is the same from both sides (Helmholtz). No model is asked.
+light; the surface itself is the same from both sides (Helmholtz). No model is asked. Values that were multiplied by a
+cosine change by that of the two directions, bright ones too: what leaves exchanged values less apart is believed.
 """
 
 from dataclasses import dataclass
@@ -40,6 +41,8 @@ class DarkLevel:
     shows: bool
     ratio: float  # by which dim pairs differ, median
     corrected_ratio: float  # the same once d is taken out
+    left: float  # median |ln ratio| of the pairs whose cosines differ, once d is taken out
+    left_by_cosine: float  # the same once a cosine of either direction is, whichever leaves less
 
 
 @formed
@@ -62,8 +65,11 @@ def dark_level_of(measurement: Measurement) -> DarkLevel | None:
     corrected = one - offset / measurement.geom.cos_i[here], other - offset / measurement.geom.cos_i[there]
     bright, before, after = _ratios(one, other, corrected)
     worse = bright < np.log(RECIPROCAL) and before > np.log(UNLIKE)
-    shows = shown.mean() >= 0.5 and worse and after < BETTER * before
-    return DarkLevel(offset, stderr, doubt, bool(shows), float(np.exp(before)), float(np.exp(after)))
+    left, left_by_cosine = _left(one, other, corrected, measurement.geom.cos_i[here], measurement.geom.cos_i[there])
+    shows = shown.mean() >= 0.5 and worse and after < BETTER * before and left < left_by_cosine
+    return DarkLevel(
+        offset, stderr, doubt, bool(shows), float(np.exp(before)), float(np.exp(after)), left, left_by_cosine
+    )
 
 
 def _of_channel(one, other, across):
@@ -105,6 +111,19 @@ def _ratios(one, other, corrected) -> tuple[float, float, float]:
     dim, bright = level <= np.median(level), level >= np.quantile(level, 0.75)
     before, after = before[known], after[known]
     return float(np.median(before[bright])), float(np.median(before[dim])), float(np.median(after[dim]))
+
+
+def _left(one, other, corrected, cos_one, cos_other) -> tuple[float, float]:
+    """Median |ln ratio| of the pairs whose cosines differ, `corrected`, and without a cosine of either direction."""
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        before, after = np.log(one / other), np.log(corrected[0] / corrected[1])
+    cosines = np.broadcast_to(np.log(cos_one / cos_other), before.shape)
+    known = np.isfinite(before) & np.isfinite(after) & (np.abs(1 / cos_one - 1 / cos_other) > APART)
+    if not np.any(known):
+        return np.inf, np.inf
+    before, after, cosines = before[known], after[known], cosines[known]
+    by_cosine = min(float(np.median(np.abs(before + sign * cosines))) for sign in (1, -1))
+    return float(np.median(np.abs(after))), by_cosine
 
 
 def dark_level_finding(measurement: Measurement) -> Finding | None:

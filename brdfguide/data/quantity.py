@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..finding import Finding
-from . import reciprocity
+from . import dark_level, reciprocity
 from .measurement import Measurement, row_median
 
 LEAST_ALONG = 40  # directions
@@ -28,7 +28,7 @@ def quantity_findings(m: Measurement, level):
         weighted = weighted and not _is_phong(m)
         open_to_doubt = not m.settled("cosine")
         fades = open_to_doubt and _fades_with_incidence(level)
-        yield _reciprocity(tested, weighted and open_to_doubt, fades, tuple(pairs.items()))
+        yield _reciprocity(m, tested, weighted and open_to_doubt, fades, tuple(pairs.items()))
     if level is None:
         text = "the coverage does not tell the hemispherical reflectance: a factor of pi could not be noticed"
         yield Finding("energy-untold", text, option="--quantity")
@@ -86,7 +86,16 @@ def _fades_with_incidence(level) -> bool:
     return bool(0.6 < power < 1.4)
 
 
-def _reciprocity(tested, weighted: bool, fades: bool, numbers) -> Finding:
+def _as_cos_i(m: Measurement, tested) -> bool:
+    """Whether exchanged values differ as those of a BRDF times cos theta_i do, and a dark level leaves them farther
+    apart."""
+    if abs(tested.power + 1) > 0.15 or np.log(tested.corrected_i_ratio) > 0.3 * np.log(tested.ratio):
+        return False
+    dark = dark_level.dark_level_of(m)
+    return dark is None or dark.left_by_cosine < dark.left
+
+
+def _reciprocity(m: Measurement, tested, weighted: bool, fades: bool, numbers) -> Finding:
     exchanged = f"exchanging light and detector changes the values by (cos theta_r/cos theta_i)^{tested.power or 0:.2f}"
     if weighted:
         text = f"{exchanged}: they are BRDF times cos theta_r"
@@ -101,7 +110,8 @@ def _reciprocity(tested, weighted: bool, fades: bool, numbers) -> Finding:
             undo="brdf-cos",
         )
     off = tested.power is not None and abs(tested.power) > max(0.25, 4 * tested.power_stderr)
-    if off and fades and abs(tested.power + 1) < 0.15 and np.log(tested.corrected_i_ratio) < 0.3 * np.log(tested.ratio):
+    as_cos_i = off and _as_cos_i(m, tested)
+    if as_cos_i and fades:
         text = (
             f"{exchanged}, and less light comes back as the incidence grows: they are BRDF times cos theta_i, not "
             f"divided by the irradiance"
@@ -136,6 +146,7 @@ def _reciprocity(tested, weighted: bool, fades: bool, numbers) -> Finding:
     pairs = f"with light and detector exchanged {tested.pairs} pairs of values"
     if off or tested.ratio > 1.35:
         how = f", as (cos theta_r/cos theta_i)^{tested.power:.2f}" if off else ""
+        how += ": as BRDF times cos theta_i would, or divided by cos theta_r" if as_cos_i else ""
         text = f"not reciprocal: {pairs} differ by a factor of {tested.ratio:.3g} (median){how}"
         option = ""
         if off and abs(tested.power) > 0.5:

@@ -48,6 +48,16 @@ def test_none_is_found_in_a_clean_run(name):
     assert dark_level.dark_level_finding(Measurement(geometry(theta_i, theta_r, phi), f[:, None])) is None
 
 
+@pytest.mark.parametrize("name", SURFACES)
+def test_values_times_a_cosine_keep_their_dim_ones(name):
+    """That cosine leaves exchanged values alike, bright or dim; what a dark level would take off does not."""
+    theta_i, theta_r, phi, f = dome_run(name, seed=17)
+    weighted = Measurement(geometry(theta_i, theta_r, phi), (f * np.cos(np.radians(theta_i)))[:, None])
+    found = dark_level.dark_level_of(weighted)
+    assert not found.shows and found.left_by_cosine == pytest.approx(0.0095, rel=0.3)  # its noise: √2 * 0.6745 * 1 %
+    assert found.left > 5 * found.left_by_cosine
+
+
 def test_it_stays_where_the_user_says_that_the_values_are_a_brdf(data):
     measurement = formats.read(data / "cornell" / "garnet_red.brdf", quantity="brdf")
     np.testing.assert_array_equal(examine.corrected(measurement).brdf, measurement.brdf)

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from brdfguide.data import examine, formats
+from brdfguide.data.measurement import Measurement
 
-from ..surfaces import SURFACES, dome_run, in_plane_run, table
+from .. import synthetic
+from ..surfaces import SURFACES, dome_run, in_plane_run, table, value
 
 BRIGHT = ["white paint", "plaster", "satin plastic", "bead-blasted steel", "egg-shell white", "rough gold"]
 GLOSSY = ["white paint", "rough gold", "satin plastic", "bead-blasted steel", "egg-shell white", "black rubber"]
@@ -113,6 +115,25 @@ def test_values_not_divided_by_the_irradiance_are_noticed_and_undone(tmp_path, n
     )
     assert "cosine-i-weighted" in codes(measurement)
     same(measurement, f)
+
+
+def test_a_cosine_that_the_reflectance_does_not_tell_is_named_and_not_taken_for_a_dark_level(tmp_path):
+    theta_i, theta_r, phi, f = dome_run("black rubber", seed=17)
+    weighted = f * np.cos(np.radians(theta_i))
+    measurement = believed(tmp_path, table(("theta_i", "theta_r", "phi_r", "brdf"), theta_i, theta_r, phi, weighted))
+    same(measurement, weighted)
+    found = {each.code: each for each in examine.examine(measurement)}
+    assert "as BRDF times cos theta_i would" in found["not-reciprocal"].text
+    assert found["not-reciprocal"].option == "--quantity brdf-cos-i" and "dark-level" not in codes(measurement)
+
+
+def test_what_was_taken_off_too_much_in_the_plane_is_not_divided_by_a_cosine():
+    geom = synthetic.scan()
+    clean = value(geom, *SURFACES["plaster"])[:, 0] * np.exp(0.01 * np.random.default_rng(3).standard_normal(len(geom)))
+    values = clean[:, None] - 0.3 * np.quantile(clean, 0.25) / geom.cos_i
+    measurement = Measurement(geom, np.where(values > 0, values, np.nan), ("value",))
+    assert codes(measurement) & {"dark-level", "dim-values-off", "not-reciprocal"}
+    assert not codes(measurement) & {"cosine-weighted", "cosine-i-weighted"}
 
 
 @pytest.mark.parametrize("name", SURFACES)
