@@ -91,11 +91,12 @@ class Layout:
     @cached_property
     def alike(self) -> list[list[str]]:
         """Groups of labels that stand for the same law: lobes that may be exchanged. Of lobes that share an index and
-        one that has its own only the former may.
+        one that has its own only the former may; nor may that of a metal whose height is F0.
         """
-        laws: dict[int, list[Term]] = {}
+        laws: dict[tuple, list[Term]] = {}
         for term in self.model.terms:
-            laws.setdefault(id(term.model), []).append(term)
+            own_height = term.model.amplitude and term.key(term.model.amplitude) in self.parameters
+            laws.setdefault((id(term.model), bool(own_height)), []).append(term)
         groups: list[list[str]] = []
         for terms in laws.values():
             owners = [term.key("k") if term.model.has_index else term.label for term in terms]

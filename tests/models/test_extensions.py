@@ -106,6 +106,17 @@ def test_lobes_in_order_keep_their_own_index():
     assert uneven.alike == [["ggx.1", "ggx.2"]]  # the third has an index of its own and stays
 
 
+def test_the_lobe_of_a_metal_that_is_as_high_as_f0_keeps_its_place():
+    layout = Layout(candidates.named("ggx:3 (metal)"), 1)
+    assert layout.alike == [["ggx.2", "ggx.3"]]
+    start = {"ggx.1.alpha": 0.3, "ggx.2.alpha": 0.2, "ggx.3.alpha": 0.1, "ggx.1.k": np.array([3.0])}
+    start |= {"ggx.2.scale": np.array([0.5]), "ggx.3.scale": np.array([0.2])}
+    given = layout.encode(start)
+    sorted_ = layout.decode(*layout.in_order(*given))
+    np.testing.assert_allclose(layout.model(GEOM, sorted_), layout.model(GEOM, layout.decode(*given)), rtol=1e-12)
+    assert sorted_["ggx.1.alpha"] == pytest.approx(0.3) and sorted_["ggx.2.alpha"] == pytest.approx(0.1)
+
+
 @pytest.mark.parametrize(
     "label, freed",
     [
