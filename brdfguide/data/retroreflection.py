@@ -1,19 +1,21 @@
 """Whether light is sent back to where it came from: a lobe about the source, which no model of the guide has."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import conventions
 from .measurement import Measurement, row_median
+from .turning import turned_parts
 
 STEEP_DEG = 12.0  # incidences nearer to the normal do not separate source and mirror direction
 
 
 @dataclass(frozen=True)
 class Retro:
-    """Medians over the incidences: how far the lobe about the source stands above its surroundings, and relative to the
-    mirror side."""
+    """Medians over the incidences under each turn: how far the lobe about the source stands above its surroundings,
+    and relative to the mirror side."""
 
     lobe: float
     over_mirror: float
@@ -21,7 +23,21 @@ class Retro:
 
 
 def lobe(measurement: Measurement) -> Retro | None:
-    """None where nothing was measured within 6 degrees of the source at incidences beyond 12 degrees."""
+    """Each turn of the sample by itself, lest a grain be taken for a lobe. None where nothing was measured within 6
+    degrees of the source at incidences beyond 12 degrees."""
+    lobes, over = [], []
+    for part in turned_parts(measurement):
+        for above, over_mirror in _by_incidence(part):
+            lobes.append(above)
+            over += [] if over_mirror is None else [over_mirror]
+    if not lobes:
+        return None
+    return Retro(float(np.median(lobes)), float(np.median(over)) if over else np.inf, len(lobes))
+
+
+def _by_incidence(measurement: Measurement) -> Iterator[tuple[float, float | None]]:
+    """How far the lobe about the source stands above its surroundings, and relative to the mirror side if that was
+    measured, at each incidence."""
     geom = measurement.geom
     level = row_median(np.where(measurement.usable, measurement.brdf, np.nan))
     source = conventions.retro_distance_deg(geom)[:, 0]
@@ -29,7 +45,6 @@ def lobe(measurement: Measurement) -> Retro | None:
     counted = measurement.has_value & ((mirror > np.minimum(geom.theta_i_deg[:, 0], 12.0)) | (mirror < source))
     at_source, about = counted & (source < 6.0), counted & (source > 10.0) & (source < 25.0) & (mirror > 12.0)
     before = counted & (mirror < source) & (source > 15.0)
-    lobes, over = [], []
     for angle, rows in measurement.incidences.items():
         near = rows[at_source[rows]]
         if angle < STEEP_DEG or not len(near):
@@ -37,9 +52,5 @@ def lobe(measurement: Measurement) -> Retro | None:
         around, ahead = rows[about[rows]], rows[before[rows]]
         if not len(around):
             continue
-        lobes.append(level[near].max() / np.median(level[around]))
-        if len(ahead):
-            over.append(level[near].max() / level[ahead].max())
-    if not lobes:
-        return None
-    return Retro(float(np.median(lobes)), float(np.median(over)) if over else np.inf, len(lobes))
+        highest = level[near].max()
+        yield highest / np.median(level[around]), highest / level[ahead].max() if len(ahead) else None

@@ -211,6 +211,15 @@ def test_scans_of_one_gain_have_no_wider_intervals_with_seeds_0_to_9(monkeypatch
     assert np.all(np.median(with_spread / errors(), axis=1) < 1.1)
 
 
+def test_a_ratio_that_the_data_do_not_tell_has_no_interval(monkeypatch):
+    measurement = scans("ggx", TURNS, seed=100, alpha=0.2)
+    found = fitting.fit(free("ggx-aniso"), measurement)
+    assert {"ggx-aniso.ratio", "ggx-aniso.alpha"} <= errors_of_grain(found, measurement).keys()
+    monkeypatch.setattr("brdfguide.report.documents.errors_of_grain.ln_stderrs", lambda *_: [800.0, np.inf])
+    with np.errstate(all="raise"):
+        assert errors_of_grain(found, measurement) == {}
+
+
 def test_scans_under_other_turns_err_apart(monkeypatch):
     """Each is mounted anew: its gain turns the axis, and many directions of one scan say no more of that than one."""
     clean = scans("ggx-aniso", [0.0, 45, 90, 135], seed=98, alpha_x=0.2, alpha_y=0.08, axis=0.4)

@@ -12,6 +12,7 @@ from ...models.model import Derived, Term
 
 ENOUGH = 2_000  # directions that tell how both widths err together
 WIDE = 2.0  # standard errors of its logarithm from a value to either end of its interval
+UNKNOWN = 100.0  # standard error of a logarithm from which the data say nothing
 
 
 def errors_of_grain(fit: Fit, measurement: Measurement) -> dict[str, dict]:
@@ -28,7 +29,7 @@ def errors_of_grain(fit: Fit, measurement: Measurement) -> dict[str, dict]:
     few = measurement[np.unique(np.linspace(0, len(measurement.brdf) - 1, ENOUGH).astype(int))]
     found = {}
     for (key, of), error in zip(numbers.items(), ln_stderrs(fit, few, list(numbers.values())), strict=True):
-        if np.isfinite(error):
+        if error < UNKNOWN:
             value = of(fit.values)
             low, high = value * np.exp(-WIDE * error), value * np.exp(WIDE * error)
             low = max(low, 1.0) if key.endswith(".ratio") else low
