@@ -326,6 +326,7 @@ def test_a_utia_table_is_known_by_its_size_and_relative(tmp_path):
 
 def test_a_utia_table_with_a_grain_keeps_its_azimuths(tmp_path):
     measurement = read(tmp_path, utia_table(grain=0.5), "it.bin")
+    assert "anisotropic" in codes(measurement) and "sample-rotation" not in codes(measurement)  # the light was turned
     assert len(np.unique(np.round(measurement.geom.phi_i_deg, 1))) == 48
     grain = 1 + 0.5 * np.cos(2 * np.radians(measurement.geom.phi_i_deg))
     tilted = measurement.geom.theta_i_deg[:, 0] > 1
