@@ -11,6 +11,7 @@ from brdfguide.advice import library, material
 from brdfguide.advice import recommend as advisor
 from brdfguide.data import examine, formats
 from brdfguide.models.surface import Surface
+from brdfguide.physics.geometry import in_plane
 from brdfguide.report.documents import emergence
 from brdfguide.report.figures import beta, inspection, lobe_views, paper, promises, style
 from brdfguide.report.figures import emergence as contours
@@ -18,6 +19,7 @@ from brdfguide.report.figures import ranking as drawing
 
 from ..conftest import DATA, ROOT
 from .probe import faults
+from .test_plot import ggx, table
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.csv"))
 GIVEN = (
@@ -78,6 +80,21 @@ def test_every_figure_of_a_measurement_may_be_shown(path, saved):
     if len(measurement.brdf) < MOST_SURVEYED:
         inspection.plot_survey(*examine.plotted(measurement), path, path.name)
     assert [fault for fig in saved for fault in faults(fig)] == []
+
+
+def test_a_survey_of_a_table_slices_it(saved):
+    """Panel d: lines through a table of 40,000 half-vector directions where it has no scans, to 3 % of the law."""
+    data = table()
+    assert len(data.theta_i_groups) > inspection.FEW
+    inspection.plot_survey(data, np.zeros(len(data.geom), bool), None, None, "it.png", "made")
+    panel = next(axes for axes in saved[0].axes if axes.get_title("left").startswith("d"))
+    assert panel.get_title("left") == "d  interpolated into the plane of incidence"
+    curves = {line.get_label(): line for line in panel.get_lines() if len(line.get_xdata()) > 100}
+    assert list(curves) == ["10°", "45°", "75°"]
+    for theta_i, line in zip((10.0, 45.0, 75.0), curves.values(), strict=True):
+        expected = ggx(in_plane(theta_i, line.get_xdata()))
+        assert np.median(np.abs(np.log(line.get_ydata() / expected))) < 0.03
+    assert faults(saved[0]) == []
 
 
 @pytest.mark.parametrize("name", MATERIALS)

@@ -9,12 +9,14 @@ from ...data.measurement import Measurement
 from ...data.turning import turn_of_each
 from . import style
 from .grain import HEIGHT_MM, draw_grain, grain_of
+from .panels import panels
 
 RAMP = LinearSegmentedColormap.from_list("incidence", ["#56B4E9", "#0072B2", "#5B3A8C", "#CC5500", "#E69F00"])
 SHADE = LinearSegmentedColormap.from_list("plane", ["#CFE3F2", "#0072B2"])
 LOST = "#C1272D"
 MOST_DOTS = 6000
 MOST_SCANS = 6
+FEW = 40  # incidences: with more the data are no scans
 
 
 def plot_survey(measurement: Measurement, spiky, pairs, level, path, title: str, theme: str = style.LIGHT) -> None:
@@ -111,15 +113,20 @@ def _plane(axes, measurement: Measurement, spiky, norm) -> None:
         near = (geom.off_plane_deg[:, 0] <= width) & usable[:, channel]
         if np.count_nonzero(near) >= 30 or width == 90.0:
             break
+    few = len(measurement.theta_i_groups) < FEW
+    sliced = () if few else panels(measurement, channel).shown
+    for each in sliced:  # a table holds no scans
+        axes.plot(each.theta_r, each.value, "-", lw=1.4, color=norm(each.theta_i), label=f"{each.theta_i:g}°")
+        axes.axvline(each.theta_i, ymax=0.03, color=norm(each.theta_i), lw=1.4)
     theta_i = geom.theta_i_deg[:, 0]
-    held = np.round(theta_i) if len(measurement.theta_i_groups) < 40 else np.round(theta_i / 5) * 5
+    held = np.round(theta_i) if few else np.round(theta_i / 5) * 5
     angles = [angle for angle in np.unique(held[near]) if np.count_nonzero(near & (held == angle)) >= 4]
-    for angle in np.array(angles)[_thinned(len(angles), MOST_SCANS)]:
+    for angle in () if sliced else np.array(angles)[_thinned(len(angles), MOST_SCANS)]:
         rows = np.flatnonzero(near & (held == angle))
         rows = rows[np.argsort(signed[rows])]
         rows = rows[_thinned(len(rows), 400)]
         colour = norm(angle)
-        if len(measurement.theta_i_groups) < 40:
+        if few:
             axes.plot(signed[rows], value[rows], "-", lw=0.6, color=colour, alpha=0.5)
         axes.plot(signed[rows], value[rows], "o", ms=2.0, mew=0, color=colour, label=f"{angle:g}°")
         axes.axvline(angle, ymax=0.03, color=colour, lw=1.4)
@@ -136,11 +143,14 @@ def _plane(axes, measurement: Measurement, spiky, norm) -> None:
         if len(measurement.channels) > 1
         else "BRDF [1/sr]"
     )
-    if angles:
-        axes.legend(title="θi", title_fontsize=7, fontsize=6.5, handletextpad=0.2, borderaxespad=0.4, labelspacing=0.25)
+    if axes.get_legend_handles_labels()[1]:
+        pad = {"handletextpad": 0.7 if sliced else 0.2, "handlelength": 1.6, "borderaxespad": 0.4}
+        axes.legend(title="θi", title_fontsize=7, fontsize=6.5, labelspacing=0.25, **pad)
     where = "in the plane of incidence" if width < 1 else f"within {width:g}° of the plane"
     if width >= 90:
         where = "all directions"
+    if sliced:
+        where = "interpolated into the plane of incidence"
     if of_one:
         where += f", light at azimuth {np.median(np.remainder(geom.phi_i_deg, 180.0)):g}°"
     axes.set_title(f"d  {where}" + (", spikes ringed" if np.any(spiky) else ""))
