@@ -12,6 +12,7 @@ from math import pi
 
 import numpy as np
 
+from ..models.facts import TOWARD_LIGHT
 from ..models.model import Term
 from ..models.surface import Surface
 from ._dialect import literal, needed, prefixed
@@ -83,7 +84,7 @@ class Live:
 
     ids: Mapping[str, str]  # key of a parameter -> v0
     held: frozenset[str]  # keys that cannot be turned
-    glsl: str  # uniforms, `vec3 finite(ci, cr, q, p)` and `vec3 mirror(ci)`
+    glsl: str  # uniforms, `vec3 finite(ci, cr, q, p, b)`, b = |i_xy - r_xy|², and `vec3 mirror(ci)`
     javascript: str  # an object: numbers(V, c), finite(V, ci, cr, q, p), mirror(V, ci) of one channel
     numbers: tuple[str, ...]  # names of the further uniforms
     calls: tuple[str, ...] = field(default=(), repr=False)
@@ -101,7 +102,7 @@ def live(surface: ColouredSurface) -> Live:
     bodies = [_sum_glsl([(term[place], *term[2][place]) for term in terms if term[place]]) for place in (0, 1)]
     glsl = f"""{uniforms}
 {functions(surface, calls)}
-vec3 finite(float ci, float cr, float q, float p) {{ return {bodies[0]}; }}
+vec3 finite(float ci, float cr, float q, float p, float b) {{ return {bodies[0]}; }}
 vec3 mirror(float ci) {{ return {bodies[1]}; }}"""
     return Live(ids, frozenset(held), glsl, _javascript(surface, terms, calls, further), tuple(further), tuple(calls))
 
@@ -160,7 +161,7 @@ def _traced(one: Surface, term: Term, symbols: Mapping[str, Symbol]) -> dict[str
 def _sum_glsl(parts) -> str:
     texts = []
     for call, amplitude, differs in parts:
-        spread = [NAME.sub(rf"\1.{axis}", prefixed(call)) for axis in "xyz"]
+        spread = [NAME.sub(rf"\1.{axis}", prefixed(call.replace(TOWARD_LIGHT, "b"))) for axis in "xyz"]
         value = f"vec3({', '.join(spread)})" if differs else f"vec3({spread[0]})"
         texts.append(f"{amplitude} * {value}" if amplitude else value)
     return " + ".join(texts) or "vec3(0.0)"

@@ -51,6 +51,11 @@ class Setting:
     start: Mapping[str, float] = field(default_factory=dict)
 
 
+# |i_xy - r_xy|² in a Formula, for lobes about the light. The difference costs float32 its digits there; who has the
+# directions at hand puts it in their place.
+TOWARD_LIGHT = "most(q - 4.0 * p, 0.0)"
+
+
 @dataclass(frozen=True)
 class Formula:
     """The law once more, as text that GLSL, OSL, C and Radiance's .cal all take: functions of numbers, without loops or

@@ -14,7 +14,7 @@ import numpy as np
 from ..physics import microfacet
 from ..physics.geometry import Geometry
 from ._flakes import SHAPE
-from .facts import Candidacy, Formula
+from .facts import TOWARD_LIGHT, Candidacy, Formula
 from .model import Extreme, Model, Parameter, Pin, at
 
 
@@ -62,5 +62,5 @@ MODEL = Model(
     from_facets=lambda facets: {"rho": facets.f0, "alpha": facets.alpha},
     candidacy=Candidacy(120, grown="beside", adds="a lobe back toward the light"),
     beyond_facets=lambda **_: "a lobe back toward the light has no counterpart",
-    formula=Formula("{rho} * ggx_shape(ci, cr, most(q - 4.0 * p, 0.0), {alpha})", (SHAPE,)),
+    formula=Formula(f"{{rho}} * ggx_shape(ci, cr, {TOWARD_LIGHT}, {{alpha}})", (SHAPE,)),
 )

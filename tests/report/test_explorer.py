@@ -48,9 +48,11 @@ DUMP = """<script>const wait = () => { const r = document.getElementById('explor
   const packed = a => { const b = new Uint8Array(a.buffer); let s = '';
     for (let i = 0; i < b.length; i += 30000) s += String.fromCharCode(...b.subarray(i, i + 30000)); return btoa(s); };
   x.state.models.forEach((m, k) => m.gl && show('pixels' + k, packed(x.pixels(m))));
+  const ink = () => getComputedStyle(r).getPropertyValue('--ink').trim(), printed = [ink()];
+  for (const event of ['beforeprint', 'afterprint']) { dispatchEvent(new Event(event)); printed.push(ink()); }
   show('told', JSON.stringify({rms: x.state.models.map(m => x.error(m)), words: x.state.models.map(x.words),
     documents: x.state.models.map(x.documentOf), yaml: x.state.models.map(x.yaml),
-    wide: document.documentElement.scrollWidth - innerWidth,
+    wide: document.documentElement.scrollWidth - innerWidth, printed,
     requests: performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).map(e => e.name)}));
 }; setTimeout(wait, 50);</script></body>"""
 
@@ -147,13 +149,18 @@ def test_no_pixel_is_more_than_one_code_from_the_previews(pair, tmp_path):
 
 
 def corners(name: str) -> list[dict]:
-    """Start values, and the least and the greatest of every number that can be turned but amplitudes.
-
-    Of a lobe about the light the least alpha is .03: i - r is a difference of float32 there.
-    """
+    """Start values, and the least, the middle and the greatest of every number that can be turned but amplitudes."""
     knobs = [k for k in shown(name)["models"][0]["knobs"] if not (k["held"] or k["minor"] or k["linear"])]
-    least = {k["key"]: 0.03 if k["key"] == "retro.alpha" else k["low"] for k in knobs}
-    return [{}, least, {k["key"]: k["high"] for k in knobs}]
+    return [{}, *({k["key"]: _at(k, share) for k in knobs} for share in (0.0, 0.5, 1.0))]
+
+
+def _at(knob: dict, share: float) -> float:
+    """Where the page's slider stands at a share of its way."""
+    low, high, origin = knob["low"], knob["high"], knob["origin"]
+    if not knob["log"] or share == 0:
+        return low + share * (high - low)
+    least = max(low - origin, (high - origin) * 1e-6, 1e-9)
+    return origin + least * ((high - origin) / least) ** share
 
 
 def few_pixels(surface) -> np.ndarray:
@@ -177,7 +184,8 @@ def test_no_law_is_more_than_one_code_from_the_previews_at_the_corners_of_its_bo
     cases = [corners(name) for name in names]
     dump = CORNERS.replace("CASES", json.dumps(cases)).replace("EVERY", str(EVERY))
     found = re.search(r'<pre id="corners">([^<]*)', in_browser(page, tmp_path, dump=dump)).group(1).split()
-    for name, case, text in zip(np.repeat(names, 3), [each for one in cases for each in one], found, strict=True):
+    tried = [(name, case) for name, each in zip(names, cases, strict=True) for case in each]
+    for (name, case), text in zip(tried, found, strict=True):
         got = np.frombuffer(base64.b64decode(text), np.float32).reshape(512 // EVERY, -1, 3)[::-1]
         assert np.isfinite(got).all() and got.min() >= 0, (name, case)
         expected = few_pixels(coloured(Surface.named(name, {}).with_values(case), name))
@@ -204,9 +212,9 @@ def test_the_page_tells_the_fits_error_and_its_copies_are_read_back(tmp_path):
 @pytest.mark.browser
 def test_a_link_keeps_what_was_moved(tmp_path):
     page = explorer_page(shown("ward", "lambertian+ggx"), "link")
-    moved = told(
-        in_browser(page, tmp_path, "--disable-3d-apis", link="#a=1&wipe=0.25&1.ggx.alpha=0.4&0.ward.alpha=9e9")
-    )
+    dark = ("--disable-3d-apis", "--blink-settings=preferredColorScheme=0")
+    moved = told(in_browser(page, tmp_path, *dark, link="#a=1&wipe=0.25&1.ggx.alpha=0.4&0.ward.alpha=9e9"))
+    assert moved["printed"] == ["#e8eaed", "#000", "#e8eaed"]  # plots of a dark page are drawn anew for paper
     assert "ggx.alpha=0.4" in moved["words"][1]
     assert "ward.alpha=0.2" in moved["words"][0]  # out of bounds: not taken
     (tmp_path / "copied.yaml").write_text(moved["yaml"][1])

@@ -256,6 +256,7 @@ function follow(m, moved) {
 }
 
 // ---- plots
+const power = d => '10' + String(d).replace('-', '\u207b').replace(/\d/g, x => '⁰¹²³⁴⁵⁶⁷⁸⁹'[x]);
 const colours = () => { const s = getComputedStyle(root); return ['--a', '--b', '--ink', '--rule'].map(n => s.getPropertyValue(n).trim()); };
 function plot() {
   const [A, B, ink, rule] = colours(), box = $('cuts'), scale = devicePixelRatio || 1, w = box.clientWidth || 640, h = 330, c = box.getContext('2d');
@@ -271,8 +272,8 @@ function plot() {
   high += .3; low = Math.max(low - .3, high - 6);
   const X = (n, t) => gap + n * each + 8 + (t + 90) / 180 * (each - 14), Y = y => top + height * (high - y) / (high - low);
   c.strokeStyle = rule; c.fillStyle = ink; c.lineWidth = 1;
-  for (let d = Math.ceil(low); d <= high; d++) { c.textAlign = 'right'; c.fillText('10' + String(d).replace('-', '\u207b').replace(/\d/g, x => '⁰¹²³⁴⁵⁶⁷⁸⁹'[x]), gap, Y(d) + 4);
-    c.beginPath(); c.moveTo(gap + 6, Y(d)); c.lineTo(w - 6, Y(d)); c.stroke(); }
+  for (let d = Math.ceil(low); d <= high; d++) { c.textAlign = 'right'; c.fillText(power(d), gap, Y(d) + 4);
+    for (let n = 0; n < count; n++) { c.beginPath(); c.moveTo(X(n, -90), Y(d)); c.lineTo(X(n, 90), Y(d)); c.stroke(); } }
   cuts.forEach((cut, n) => { c.textAlign = 'left'; c.fillText('\u03b8\u1d62 = ' + short(cut.theta_i, 3) + '°', X(n, -90), 15);
     c.strokeStyle = ink; c.strokeRect(X(n, -90), top, each - 14, height); if (strip) c.strokeRect(X(n, -90), top + height + 8, each - 14, strip - 8);
     c.textAlign = 'center'; for (const t of [-60, 0, 60]) c.fillText(t, X(n, t), h - 24); c.strokeStyle = rule; c.beginPath(); c.moveTo(X(n, cut.theta_i), top); c.lineTo(X(n, cut.theta_i), h - 40); c.stroke();
@@ -292,7 +293,7 @@ function polar(cuts, sides, ink, rule) {
   const lines = sides.map(([side, colour, dash]) => { const f = evaluator(S.models[state[side]], channel()), line = []; for (let t = -89; t <= 89; t += .5) line.push([t, Math.log10(f(...plane(ti, t)))]); return {colour, dash, line}; });
   const all = lines.flatMap(l => l.line.map(p => p[1])).filter(isFinite), high = Math.ceil(Math.max(...all)), low = Math.max(Math.floor(Math.min(...all) - .3), high - 5);
   c.strokeStyle = rule; c.fillStyle = ink; for (let d = low + 1; d <= high; d++) { c.beginPath(); c.arc(w / 2, h - 22, R * (d - low) / (high - low), Math.PI, 0); c.stroke(); }
-  c.fillText('outermost 10^' + high + ' /sr, rings are decades, \u03b8\u1d62 = ' + short(ti, 3) + '°', 8, h - 5);
+  c.fillText('outermost ' + power(high) + ' /sr, rings are decades, \u03b8\u1d62 = ' + short(ti, 3) + '°', 8, h - 5);
   c.strokeStyle = ink; c.beginPath(); c.moveTo(...at(-ti, R)); c.lineTo(...at(0, 0)); c.stroke();
   for (const {colour, dash, line} of lines) { c.strokeStyle = colour; c.lineWidth = 2; c.setLineDash(dash); c.beginPath(); line.forEach(([t, y], k) => c[k ? 'lineTo' : 'moveTo'](...at(t, R * Math.max(0, (Math.min(y, high) - low) / (high - low))))); c.stroke(); c.setLineDash([]); }
 }
@@ -368,6 +369,7 @@ $('card').textContent = gl ? '' : 'Drawn without the graphics card.';
 $('light').value = state.light; $('mode').value = state.mode; $('object').value = state.object; $('wipe').value = state.wipe; $('angle').value = state.angle; $('lock').checked = state.lock;
 fill(); plot(); say(); draw(true);
 addEventListener('resize', plot);
+for (const [event, on] of [['beforeprint', true], ['afterprint', false]]) addEventListener(event, () => { root.classList.toggle('paper', on); plot(); });
 root.explorer = {state: S, choice: state, evaluator, values, crossing, error, words, documentOf, yaml, twins: TWINS,
   paint: m => { for (const _ of drawn(m, 1)); return root.explorer.pixels(m); },
   pixels: m => { const out = new Float32Array(4 * SIZE * SIZE); gl.bindFramebuffer(gl.FRAMEBUFFER, m.gl.radiance.frame); gl.readPixels(0, 0, SIZE, SIZE, gl.RGBA, gl.FLOAT, out); return out; }};

@@ -54,13 +54,12 @@ void main() {
   light = side = vec4(0.0);
   if (cd <= 0.0 || i.z <= 1.0e-6) return;
   float weight = 4.0 * cd * t * t * hz * hz * hz * step_ * 2.0 * PI_ / float(spokes) * i.z;
-  float q = 4.0 * cd * cd * dot(h.xy, h.xy);
+  float q = 4.0 * cd * cd * dot(h.xy, h.xy), b = dot(r.xy - i.xy, r.xy - i.xy);
   if (back == 1) {
-    float other = dot(r.xy - i.xy, r.xy - i.xy), share = other * other / max(q * q + other * other, 1.0e-30);
-    weight *= share;
-    if (turned == 1) { i.xy = -i.xy; q = other; }
+    weight *= b * b / max(q * q + b * b, 1.0e-30);
+    if (turned == 1) { i.xy = -i.xy; float other = b; b = q; q = other; }
   }
-  vec3 f = finite(i.z, r.z, q, dot(i.xy, r.xy));
+  vec3 f = finite(i.z, r.z, q, dot(i.xy, r.xy), b);
   light = vec4(f * weight, r.x * i.z - r.z * i.x);
   side = vec4(i.y, 0.0, 0.0, 0.0);
 }"""
@@ -96,9 +95,10 @@ float edge(float t, float span) {
 vec3 law(vec3 i, vec3 n) {
   float ci = dot(n, i), cr = n.z;
   if (ci <= 0.0 || cr <= 0.0) return vec3(0.0);
-  vec3 v = i + vec3(0.0, 0.0, 1.0);
+  vec3 v = i + vec3(0.0, 0.0, 1.0), w = i - vec3(0.0, 0.0, 1.0);
   v -= n * dot(n, v);
-  return finite(max(ci, 1.0e-6), max(cr, 1.0e-6), dot(v, v), i.z - ci * cr) * ci;
+  w -= n * dot(n, w);
+  return finite(max(ci, 1.0e-6), max(cr, 1.0e-6), dot(v, v), i.z - ci * cr, dot(w, w)) * ci;
 }
 // atan of a driver may err by a thousandth; one step of Newton's mends it
 float angle(float y, float x) {
