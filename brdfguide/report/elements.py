@@ -3,18 +3,27 @@
 from collections.abc import Iterable
 from html import escape
 
+MOST_COLUMNS = 4  # of a table that a phone shows as one
+
 
 def html_table(header, lines, numbers=frozenset()) -> str:
-    """`lines` are (cells, whether it is the pick), cells ready to stand; columns in `numbers` are flush right."""
+    """`lines` are (cells, whether it is the pick), cells ready to stand; columns in `numbers` are flush right.
 
-    def row(tag: str, cells) -> str:
-        marks = [' class="n"' if place in numbers else "" for place in range(len(cells))]
-        return "".join(f"<{tag}{mark}>{cell}</{tag}>" for mark, cell in zip(marks, cells, strict=True))
+    On a phone each line of a wide table is a paragraph, its cells beside their headings.
+    """
+    wide = len(header) > MOST_COLUMNS
+    marks = [' class="n"' if place in numbers else "" for place in range(len(header))]
+    told = [wide and place > 0 and text not in ("", "model") for place, text in enumerate(header)]
+    names = [f' data-is="{escape(text, quote=True)}"' * kept for text, kept in zip(header, told, strict=True)]
+    head = "".join(f"<th{mark}>{escape(text)}</th>" for mark, text in zip(marks, header, strict=True))
+
+    def row(cells) -> str:
+        return "".join(f"<td{mark}{name}>{cell}</td>" for mark, name, cell in zip(marks, names, cells, strict=True))
 
     picked = ' class="pick"'
-    head = row("th", [escape(text) for text in header])
-    body = "".join(f"<tr{picked if pick else ''}>{row('td', cells)}</tr>" for cells, pick in lines)
-    return f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+    body = "".join(f"<tr{picked if pick else ''}>{row(cells)}</tr>" for cells, pick in lines)
+    fold = ' class="fold"' if wide else ""
+    return f'<div class="wide"><table{fold}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def html_definitions(entries, escaped: bool = False) -> str:

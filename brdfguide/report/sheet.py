@@ -11,7 +11,7 @@ CSS = """
  --s0:#0072B2;--s1:#D55E00;--s2:#009E73;--s3:#CC79A7;--s4:#E69F00;--s5:#56B4E9;--s6:#8A6D3B;--s7:#777777}
 @media (prefers-color-scheme:dark){:root{
  --paper:#14171a;--ink:#e8eaed;--soft:#a7b0ba;--rule:#4a525c;--card:#1e2327;--accent:#7cc4f5;--bad:#ffa36b;
- --s0:#5AB0F2;--s1:#FF8A3D;--s2:#35C79A;--s3:#E8A0C8;--s4:#F2B632;--s5:#9AD2F6;--s6:#C9A86A;--s7:#A8A8A8}}
+ --s0:#5291FF;--s1:#FF8A3D;--s2:#35C79A;--s3:#E8A0C8;--s4:#F2B632;--s5:#9AD2F6;--s6:#C9A86A;--s7:#A8A8A8}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
 body{margin:0 auto;max-width:60rem;padding:1.2rem 1rem 3rem;background:var(--paper);color:var(--ink);
@@ -49,6 +49,11 @@ figure img{display:block;max-width:100%;height:auto}
 figcaption{font-size:.88rem;margin-top:.3rem}
 @media screen and (max-width:36rem){
  figure:has(svg) figcaption::before{content:"Wider than the screen: swipe it sideways. "}}
+@media screen and (max-width:36rem){
+ .fold,.fold tbody{display:block}.fold thead{display:none}
+ .fold tr{display:flex;flex-wrap:wrap;gap:0 .8rem;padding:.35rem 0;border-bottom:1px solid var(--rule)}
+ .fold td,.fold td:last-child{border:0;padding:0;min-width:0}.fold td:empty{display:none}
+ .fold td[data-is]::before{content:attr(data-is) " ";color:var(--soft);font-weight:400}}
 nav{font-size:.9rem;margin:.8rem 0}
 nav a{margin-right:.9rem;white-space:nowrap}
 dl{display:grid;grid-template-columns:minmax(7rem,max-content) 1fr;gap:.2rem 1rem;font-size:.92rem}
@@ -56,7 +61,8 @@ dt{color:var(--soft)}dd{margin:0;min-width:0}
 @media print{:root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--card:#f4f4f4;--accent:#005a91;--bad:#a33b00;
  --s0:#0072B2;--s1:#D55E00;--s2:#009E73;--s3:#CC79A7;--s4:#E69F00;--s5:#56B4E9;--s6:#8A6D3B;--s7:#777777}
  body{max-width:none;font-size:10pt;padding:0}nav{display:none}.wide{overflow:visible}
- figure svg{min-width:0}figure,tr,li{break-inside:avoid}h2{break-after:avoid}}
+ figure svg{min-width:0}figure,tr,li,.floor{break-inside:avoid}h2,h3{break-after:avoid}
+ body{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 """
 
 

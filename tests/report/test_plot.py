@@ -229,7 +229,10 @@ def test_names_of_fifteen_models_close_together_do_not_meet(seed):
             ns, error = ns * np.exp(rng.normal(0, 0.15)), 0.05 * np.exp(rng.gamma(1.2, 0.7))
         surface = Surface(models.get(name), {})
         lines.append(figure_lines.Line(name, surface, error, ns, True, recommended=name == "lambertian+cook-torrance"))
-    assert faults(cost.plot_cost(lines)) == []
+    fig = cost.plot_cost(lines)
+    assert faults(fig) == []
+    named = {text.get_text() for text in fig.axes[0].texts}
+    assert "lambertian+cook-torrance" in named and len(named) >= 12
 
 
 @pytest.mark.parametrize("errors", [(0.75, 1.13), (0.056, 0.061), (0.07, 2.2)])

@@ -13,11 +13,14 @@ from .lobes import plain_log
 TIME = "time per sample [ns], our NumPy in batches of this file's size: not a shader's cost"
 STEP = 5  # points, between places that are tried for a name
 LETTER_PT = 7
+NEAR_PT, FAR_PT = 11.0, 60.0  # how far a name is from its point: beyond, a leader leads there; none leads farther
 CLEAR = 6.0  # points about its own, where a leader is not looked at
 
 
 def plot_cost(lines: list[Line], width_mm=180, height_mm=72, time: str = TIME):
     """A figure of error against run time."""
+    if not any(line.ns for line in lines):
+        height_mm = min(height_mm, 18 + 5 * len(lines))
     with style.look():
         fig = style.figure(width_mm, height_mm)
         draw_cost(fig, lines, time)
@@ -81,7 +84,7 @@ def _errors_only(axis, lines: list[Line]) -> None:
     names = axis.set_yticks(places, [line.name for line in lines])
     for tick, line in zip(names, lines, strict=True):
         tick.label1.set_fontweight("bold" if line.recommended else "normal")
-    axis.invert_yaxis()
+    axis.set_ylim(len(lines) - 0.4, -0.6)
     axis.set_xscale("log")
     plain_log(axis.xaxis)
     axis.grid(axis="y")
@@ -89,7 +92,10 @@ def _errors_only(axis, lines: list[Line]) -> None:
 
 
 def _name_points(fig, axis, lines: list[Line], at, stairs, legend) -> None:
-    """A name beside each point, as near as no other name, point, leader or part of the front is, inside the frame."""
+    """A name beside each point, as near as no other name, point, leader or part of the front is, inside the frame.
+
+    Where every leader would cross something or be long, a model off the front stays without a name.
+    """
     style.freeze_layout(fig.figure)
     scale = fig.figure.dpi / 72
     points, corners = axis.transData.transform(at) / scale, axis.transData.transform(stairs) / scale
@@ -106,7 +112,9 @@ def _name_points(fig, axis, lines: list[Line], at, stairs, legend) -> None:
         name = axis.annotate(line.name, tuple(at[place]), (0, 0), **look)
         width = name.get_window_extent().width / scale
         name.remove()
-        dx, dy, box, leads = _free_place(x, y, width, frame, taken, steps)
+        dx, dy, box, leads, clear = _free_place(x, y, width, frame, taken, steps)
+        if not (clear or line.on_front or line.recommended):
+            continue
         taken.append(box)
         if leads:
             end = ((np.clip(x, box[0], box[2]) - box[0]) / width, 0.0 if box[1] > y else 1.0)
@@ -123,8 +131,8 @@ def _name_points(fig, axis, lines: list[Line], at, stairs, legend) -> None:
 
 
 def _free_place(x, y, width, frame, taken, steps):
-    """(dx, dy, box, whether a leader leads there): the nearest place that is free; where every leader to one crosses
-    something, the nearest all the same; the nearest of all if none is free.
+    """(dx, dy, box, whether a leader leads there, whether it is clear and short): the nearest place that is free; where
+    every leader to one crosses something, the nearest all the same; the nearest of all if none is free.
     """
     sides = [side for apart in (6, 24, 60, 110, 170) for side in (apart, -apart - width)]
     offsets = [
@@ -138,16 +146,17 @@ def _free_place(x, y, width, frame, taken, steps):
     for dx, dy in offsets:
         box = (x + dx, y + dy - 4.5, x + dx + width, y + dy + 4.5)
         inside = frame[0] + 2 < box[0] and box[2] < frame[2] - 2 and frame[1] + 2 < box[1] and box[3] < frame[3] - 2
-        leads = np.hypot(max(dx, -dx - width, 0), dy) > 11
+        away = np.hypot(max(dx, -dx - width, 0), dy)
+        leads = away > NEAR_PT
         if not inside or any(_overlap(box, each) for each in (*taken, *steps)):
             continue
         if not leads or not any(a[0] < px < a[2] and a[1] < py < a[3] for px, py in _leader(x, y, box) for a in taken):
-            return dx, dy, box, leads
-        crossing = crossing or (dx, dy, box, leads)
+            return dx, dy, box, leads, away < FAR_PT
+        crossing = crossing or (dx, dy, box, leads, False)
     if crossing:
         return crossing
     dx, dy = offsets[0]
-    return dx, dy, (x + dx, y + dy - 4.5, x + dx + width, y + dy + 4.5), False
+    return dx, dy, (x + dx, y + dy - 4.5, x + dx + width, y + dy + 4.5), False, False
 
 
 def _leader(x, y, box):

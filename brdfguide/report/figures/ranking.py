@@ -12,6 +12,7 @@ GRAIN_WORDS = (
     "The grain: scans under turns of the sample; the peak over facet slopes with the ellipse of the data (dashed) and "
     "of the model; the width of the lobe against the azimuth of the plane of incidence."
 )
+TIMED_WORDS = "Error against run time. A model on the front is beaten by no other in both."
 
 
 def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIGHT) -> None:
@@ -47,7 +48,7 @@ def ranking_figures(ranking, measurement: Measurement) -> list[PageFigure]:
         *([] if grain is None else [(style.figure_file(plot_grain(grain, lines)), GRAIN_WORDS)]),
         (
             style.figure_file(plot_cost(lines)),
-            "Error against run time. A model on the front is beaten by no other in both.",
+            TIMED_WORDS if any(line.ns for line in lines) else "The error of every model, times left out.",
         ),
         spheres.pictures_of_looks([line.surface for line in pair]),
     ]
