@@ -6,7 +6,7 @@ from ..opening import exists, is_plain
 from ._described import Data
 from ._fitting import expressions
 from ._numbers import numbers_of
-from ._options import print_json, progress, tell
+from ._options import print_json, progress, tell, working
 from ._report import show_ranking
 from ._scene import of_ranking
 from ._surface import export_fitted
@@ -74,7 +74,8 @@ def _with_measurement(advised, advised_document: dict | None, file: Data, reques
     from ..report.text.as_shader import as_shader_text
 
     names, output = expressions(request.models), request.output
-    data = _read(file, Job(anyway=request.anyway))
+    with working(f"reading {file.path.name}", output.quiet):
+        data = _read(file, Job(anyway=request.anyway))
     judged = metal_or_dielectric.verdict(data)
     kind = (advised.material.kind if advised else None) or judged.known
     kind = kind if kind in candidates.KINDS else None  # a semiconductor gets both sorts

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Event, Thread
+from time import monotonic
 from typing import Annotated
 
 from typer import Option
@@ -16,6 +18,7 @@ from ..files import picture_kind, writable
 from ._described import json_text
 from ._streams import say, whisper
 
+PATIENCE_S = 1.0  # of somebody before a terminal
 PATTERNS = ("{stem}", "{parent}")
 JsonOption = Annotated[bool, Option("--json", help="One JSON object on stdout.")]
 QuietOption = Annotated[bool, Option("--quiet", "-q", help="No notes on stderr.")]
@@ -108,6 +111,29 @@ def picture_file(path: Path | None) -> Path | None:
     if path is not None:
         picture_kind(path)
     return output_file(path)
+
+
+@contextmanager
+def working(what: str, quiet: bool = False):
+    """What takes longer than a second, and for how long by now, as a line on a terminal's stderr that goes when it is
+    done; nothing elsewhere."""
+    if quiet or not on_terminal(sys.stderr):
+        yield
+        return
+    done, began, words = Event(), monotonic(), printable.short(what)
+
+    def show() -> None:
+        while not done.wait(PATIENCE_S):
+            print(f"\r\x1b[K{words}, {monotonic() - began:.0f} s", end="", file=sys.stderr, flush=True)
+
+    shown = Thread(target=show, daemon=True)
+    shown.start()
+    try:
+        yield
+    finally:
+        done.set()
+        shown.join()
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
 
 @contextmanager

@@ -19,6 +19,7 @@ from ._options import (
     print_json,
     remark,
     tell,
+    working,
 )
 from ._request import refuse
 from ._streams import say
@@ -79,9 +80,11 @@ def show_ranking(
     from ..face.pictures import draw_fit, write_page
 
     if pictures.plot:
-        draw_fit(pictures.plot, ranked, measurement, axis, pictures.theme)
+        with working(f"drawing {pictures.plot.name}", quiet):
+            draw_fit(pictures.plot, ranked, measurement, axis, pictures.theme)
     if pictures.report:
-        write_page(pictures.report, document, ranked, measurement, file, command_line(), pictures.explore)
+        with working(f"drawing {pictures.report.name}", quiet):
+            write_page(pictures.report, document, ranked, measurement, file, command_line(), pictures.explore)
     pictures.say_written(quiet)
 
 
@@ -96,12 +99,12 @@ def show_answer(pictures: Pictures, document: dict, answer, files, quiet: bool =
     if pictures.plot and answer.candidates:
         style.save(promises.promised(answer.candidates, name=name), pictures.plot, pictures.theme)
     if pictures.report:
-        figures, block = promises.promise_figures(answer.candidates, name), ""
-        if pictures.explore and answer.candidates:
-            from ..face.explorer import block_of_candidates
+        from ..face.explorer import block_of_candidates
 
-            block = block_of_candidates(answer.candidates)
-        page.write(document, pictures.report, figures, command_line(), files, block)
+        with working(f"drawing {pictures.report.name}", quiet):
+            figures = promises.promise_figures(answer.candidates, name)
+            block = block_of_candidates(answer.candidates) if pictures.explore and answer.candidates else ""
+            page.write(document, pictures.report, figures, command_line(), files, block)
     if answer.candidates or pictures.report:
         pictures.say_written(quiet)
 
@@ -113,7 +116,8 @@ def print_ranking(document: dict, ranked, measurement, more: str, output: Output
     elif on_terminal():
         from ..report.text import terminal
 
-        sketch = _sketch(ranked, measurement)
+        with working("sketching", output.quiet):
+            sketch = _sketch(ranked, measurement)
         text = terminal.coloured_text(printable.document(document), sketch=sketch, notes=not output.quiet, full=full)
         say(text, shown=True)
         tell(more.removeprefix("\n"), end="\n" if more else "")  # a line has ended already

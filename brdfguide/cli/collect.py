@@ -8,7 +8,7 @@ from typer import Argument, Context, Exit, Option
 
 from ..errors import InputError
 from ._many import from_missing
-from ._options import JsonOption, QuietOption, output_file, print_json, remark
+from ._options import JsonOption, QuietOption, output_file, print_json, remark, working
 
 EXAMPLES = "Examples: brdfguide collect fits -o all.sqlite | brdfguide collect fits -o all.csv --fail-missing list.txt"
 SUFFIXES = (".sqlite", ".db", ".csv", ".jsonl", ".parquet")
@@ -41,7 +41,8 @@ def collect(request: CollectRequest) -> None:
         raise InputError(f"-o {request.output}: wanted one of {', '.join(SUFFIXES)}")
     store = known_store(request.folder)
     base_path = request.output if kind in (".sqlite", ".db") else store.folder / collected.INDEX
-    count, new = collected.collect_into(store, base_path)
+    with working(f"collecting {request.folder}", request.quiet):
+        count, new = collected.collect_into(store, base_path)
     with collected.opened(base_path) as base:
         if base_path is not request.output:
             flat_files.write_table(collected.flat_rows(base), collected.FLAT, request.output)

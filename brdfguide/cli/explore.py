@@ -6,7 +6,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 from ..errors import InputError
-from ._options import QuietOption, output_file, remark
+from ._options import QuietOption, output_file, remark, working
 
 EXAMPLES = (
     "Examples: brdfguide explore fit.json --data scan.csv | "
@@ -40,7 +40,8 @@ def explore(
     """Write one page with sliders for every number, a picture, lobes, data with the live error, and the contours."""
     from ..face.explorer import explorer_html
 
-    text, names = explorer_html(tuple(surface or ()), data)
+    with working(f"fitting {data.name}" if data and not surface else f"making {output.name}", quiet):
+        text, names = explorer_html(tuple(surface or ()), data)
     from ..files import write_whole
 
     write_whole(output, text)

@@ -13,7 +13,7 @@ from ._data import AnywayOption, ApertureOption, Reading, TurnedOption
 from ._fitting import Fitting, expressions
 from ._many import ONE, PANEL, Many
 from ._numbers import NumbersOption, shows_numbers
-from ._options import FullOption, Output, command_line, is_pattern, output_file, progress
+from ._options import FullOption, Output, command_line, is_pattern, output_file, progress, working
 from ._report import ANGLE, Pictures, checked_axis, print_ranking, show_ranking
 from ._request import refuse
 from ._scene import SceneOption
@@ -211,7 +211,8 @@ def fit_one(file: Path, request: FitRequest) -> None:
     from ..report.text.values import residuals_csv
 
     job, output, beyond = request.job(), request.output, request.beyond(shown=True)
-    found = case(request.data if request.turned else file, job)
+    with working(f"reading {file.name}", output.quiet):
+        found = case(request.data if request.turned else file, job)
     with progress(3 * len(found.candidates), output.quiet) as tell:
         answer = answered(found, job, tell)
     measurement, ranked, result = answer.measurement, answer.ranking, answer.document

@@ -9,7 +9,7 @@ from typer import Argument, Context, Exit, Option
 from ..errors import InputError
 from ._data import Reading, TurnedOption
 from ._many import Many
-from ._options import JsonOption, ThemeOption, answer, picture_file, print_json
+from ._options import JsonOption, ThemeOption, answer, picture_file, print_json, working
 from ._request import refuse, refuse_theme
 
 EXAMPLES = "Examples: brdfguide inspect run.csv --plot run.png | brdfguide inspect gold-paint.binary --json"
@@ -69,14 +69,17 @@ def inspect(request: InspectRequest) -> None:
         turns = joined.turn_angles(request.turned)
         measurement = joined.read_turned(list(map(Path, words)), turns, anyway=True, **options)
     else:
-        measurement = formats.read(words[0], **options)
-    found = examine.examine(measurement)
-    result = inspection.document(measurement, found, examine.changes(measurement, found))
+        with working(f"reading {Path(words[0]).name}"):
+            measurement = formats.read(words[0], **options)
+    with working(f"examining {Path(words[0]).name}"):
+        found = examine.examine(measurement)
+        result = inspection.document(measurement, found, examine.changes(measurement, found))
     if request.plot:
         from ..report.figures import inspection as survey
 
-        looked_at, spiky, pairs, level = examine.plotted(measurement)
-        survey.plot_survey(looked_at, spiky, pairs, level, request.plot, str(words[0]), request.theme)
+        with working(f"drawing {request.plot.name}"):
+            looked_at, spiky, pairs, level = examine.plotted(measurement)
+            survey.plot_survey(looked_at, spiky, pairs, level, request.plot, str(words[0]), request.theme)
     if request.sarif:
         print_json(sarif_document(result))
         return

@@ -8,7 +8,7 @@ from typer import Argument, Context, Option
 
 from .. import printable
 from ..errors import InputError
-from ._options import JsonOption, QuietOption, picture_file, print_json, remark
+from ._options import JsonOption, QuietOption, picture_file, print_json, remark, working
 from ._request import refuse
 from ._scene import SceneOption
 from ._streams import say
@@ -18,6 +18,7 @@ EXAMPLES = (
     "fit.json --sheet near.png"
 )
 MOST_ON_A_SHEET = 24
+LOOKING = "comparing looks"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -60,20 +61,24 @@ def search(request: SearchRequest) -> None:
     if path.is_dir():
         store = known_store(path)
         path = store.folder / collected.INDEX
-        collected.collect_into(store, path)
+        with working(f"collecting {path.name}", request.quiet):
+            collected.collect_into(store, path)
     with collected.opened(path) as base:
         rows = searching.matching(base, asked)
         total = base.execute("SELECT count(*) FROM name JOIN fit USING (key)").fetchone()[0]
         if request.alike:
-            looks = searching.all_looks(base, scene)  # type: ignore[arg-type]
-            _show_groups(request, rows, looks)
+            with working(LOOKING, request.quiet):
+                looks = searching.all_looks(base, scene)  # type: ignore[arg-type]
+                groups = _groups(rows, looks)
+            _show_groups(request, rows, groups)
             return
         near = None
         if request.like is not None:
             from ..face.surfaces import named_surface
 
-            looks = searching.all_looks(base, scene)  # type: ignore[arg-type]
-            near = searching.nearest(looks, named_surface(request.like))
+            with working(LOOKING, request.quiet):
+                looks = searching.all_looks(base, scene)  # type: ignore[arg-type]
+                near = searching.nearest(looks, named_surface(request.like))
     if near is not None:
         rows.sort(key=lambda row: near.distance.get(row["key"], float("inf")))
     _show(request, rows, near, total)
@@ -93,7 +98,8 @@ def _show(request: SearchRequest, rows: list[dict], near, total: int) -> None:
     if near is not None and near.tenth is not None:
         remark(f"the tenth nearest of all lies {near.tenth:.1f} L* away", request.quiet)
     if request.sheet:
-        _draw(request.sheet, shown, [f"{each['seen_from']:.1f} L* away" if near else "" for each in found])
+        notes = [f"{each['seen_from']:.1f} L* away" if near else "" for each in found]
+        _draw(request.sheet, shown, notes, request.quiet)
 
 
 def _entry(row: dict, near=None) -> dict:
@@ -125,8 +131,8 @@ def _cell(value) -> str:
     return f"{value:.3g}" if isinstance(value, float) else printable.line(value)
 
 
-def _show_groups(request: SearchRequest, rows: list[dict], looks) -> None:
-    """Those that look the same, a group each."""
+def _groups(rows: list[dict], looks) -> list[list[str]]:
+    """Files that look the same, a group each, the one that stands for it first."""
     from ..batch.searching import alike_groups
 
     by_key: dict[str, list[dict]] = {}
@@ -137,7 +143,11 @@ def _show_groups(request: SearchRequest, rows: list[dict], looks) -> None:
     files += [
         [row["file"] for row in each] for key, each in by_key.items() if not any(key in group for group in groups)
     ]
-    found = sorted(group for group in files if len(group) > 1)
+    return sorted(group for group in files if len(group) > 1)
+
+
+def _show_groups(request: SearchRequest, rows: list[dict], found: list[list[str]]) -> None:
+    """Those that look the same, a group each."""
     if request.json:
         print_json({"schema": "brdfguide/alike/1", "groups": [{"stands_for": g[0], "files": g} for g in found]})
     else:
@@ -151,10 +161,10 @@ def _show_groups(request: SearchRequest, rows: list[dict], looks) -> None:
     )
     if request.sheet:
         first = [next(row for row in rows if row["file"] == group[0]) for group in found[: request.most]]
-        _draw(request.sheet, first, [f"stands for {len(group)}" for group in found])
+        _draw(request.sheet, first, [f"stands for {len(group)}" for group in found], request.quiet)
 
 
-def _draw(path: Path, rows: list[dict], notes: list[str]) -> None:
+def _draw(path: Path, rows: list[dict], notes: list[str], quiet: bool) -> None:
     """A contact sheet: a sphere for each, with its file, its model and a note."""
     from ..exporters import coloured
     from ..fitting import saved
@@ -166,4 +176,5 @@ def _draw(path: Path, rows: list[dict], notes: list[str]) -> None:
         raise InputError("--sheet: nothing matches, and there is nothing to draw")
     surfaces = [coloured(saved.surface_in(row["surface"].encode(), row["file"]), row["file"]) for row in rows]
     captions = [(Path(row["file"]).stem, row["recommended"], note) for row, note in zip(rows, notes, strict=False)]
-    style.save(contact.contact_sheet(surfaces, captions), path)
+    with working(f"drawing {path.name}", quiet):
+        style.save(contact.contact_sheet(surfaces, captions), path)

@@ -7,8 +7,12 @@ import subprocess
 import sys
 import tempfile
 from functools import cache
+from io import StringIO
+from time import sleep
 
 import pytest
+
+from brdfguide.cli import _options
 
 from .. import patience
 from ..conftest import ROOT
@@ -243,3 +247,33 @@ def test_without_a_home_pictures_are_drawn_in_silence(tmp_path):
     run = start(("roughness", "--angle", "80", "--plot", str(tmp_path / "p.png")), subprocess.PIPE, gone)
     _, err = run.communicate(timeout=patience.AN_AGE_S)
     assert run.returncode == 0 and err.decode().count("\n") == 1, err
+
+
+class Screen(StringIO):
+    """A terminal in memory."""
+
+    encoding = "utf-8"
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_what_takes_long_is_said_on_a_terminal_until_it_is_done(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setattr(_options, "PATIENCE_S", 0.01)
+    monkeypatch.setattr(sys, "stderr", Screen())
+    with _options.working("drawing \x1b[2J.png"):
+        sleep(0.1)
+        said = sys.stderr.getvalue()
+    assert "drawing " in said and ", 0 s" in said and "\x1b[2J" not in said
+    assert sys.stderr.getvalue().endswith("\r\x1b[K")
+
+
+def test_what_takes_long_is_not_said_in_a_pipe_nor_when_quiet(monkeypatch):
+    monkeypatch.setattr(_options, "PATIENCE_S", 0.01)
+    for stream, quiet in ((StringIO(), False), (Screen(), True)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        with _options.working("drawing", quiet):
+            sleep(0.05)
+        assert stream.getvalue() == ""
