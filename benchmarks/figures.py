@@ -26,7 +26,7 @@ kept: list = []
 
 def main(words: list[str]) -> int:
     """The exit status."""
-    style.save = lambda fig, path, theme="light": kept.append(fig)
+    style.save = _keep
     files = [Path(word) for word in words] or sorted((ROOT / "examples").glob("*.csv")) + sorted(
         path for path in DATA.glob("*/*") if path.suffix in MEASURED and "LICENSE" not in path.name
     )
@@ -53,6 +53,10 @@ def main(words: list[str]) -> int:
         bad, figures, sources = bad + _told(f"Figure {number}"), figures + 1, sources + 1
     print(f"{figures} figures of {sources} sources, {bad} with faults")
     return int(bad > 0)
+
+
+def _keep(figure, path, theme="light") -> None:
+    kept.append(figure)
 
 
 def _of_measurement(measurement) -> None:
