@@ -33,7 +33,7 @@ def ranking(document) -> str:
         ]
         cells += [html_number(row.get("held_out_rms_ln"))] * held
         cells += [html_number(row.get("time_per_sample_ns")) + (" ◆" if row.get("on_front") else "")] * timed
-        cells += [escape(", ".join(codes(row.get("flags", ()))))]
+        cells += [escape(", ".join(codes(row.get("flags", ()))).replace(" %", "\u00a0%"))]
         lines.append((cells, name_of(row) == document.get("recommended")))
     front = "◆ no other model is better in both error and operations. " if timed else ""
     note = (

@@ -6,13 +6,16 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from brdfguide.report.figures import style
+
 SLACK = 1.5  # pixels
 
 
 def faults(fig: Figure) -> list[str]:
-    """A sentence for each fault; none for a figure that may be shown."""
-    fig.draw_without_rendering()
-    return [*_empty_panels(fig), *_texts(fig), *_points_outside(fig)]
+    """A sentence for each fault; none for a figure that may be shown. Looked at as it is saved, inside `look()`."""
+    with style.look():
+        fig.draw_without_rendering()
+        return [*_empty_panels(fig), *_texts(fig), *_points_outside(fig)]
 
 
 def _empty_panels(fig: Figure):

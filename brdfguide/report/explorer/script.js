@@ -303,7 +303,7 @@ function chart(ink, rule, A) {
   const c = box.getContext('2d'), scale = devicePixelRatio || 1, W = box.clientWidth || 320, H = 220; box.width = W * scale; box.height = H * scale; c.scale(scale, scale); c.font = '12px system-ui, sans-serif';
   const X = s => 36 + (Math.log(s) - Math.log(.02)) / Math.log(25) * (W - 46), Y = s => H - 34 - (Math.log(s) - Math.log(.02)) / Math.log(250) * (H - 44);
   c.strokeStyle = rule; c.strokeRect(36, 10, W - 46, H - 44); c.fillStyle = ink;
-  for (const s of [.02, .05, .1, .2, .5]) { c.textAlign = 'center'; c.fillText(s, X(s), H - 20); } for (const s of [.02, .1, .5, 2]) { c.textAlign = 'right'; c.fillText(s, 32, Y(s) + 4); }
+  for (const s of [.02, .05, .1, .2, .5]) { c.textAlign = s > .02 ? 'center' : 'left'; c.fillText(s, X(s), H - 20); } for (const s of [.02, .1, .5, 2]) { c.textAlign = 'right'; c.fillText(s, 32, Y(s) + 4); }
   c.textAlign = 'left'; c.fillText('sigma [\u00b5m] over slope sigma/tau', 36, H - 5);
   c.strokeStyle = '#c1272d'; c.lineWidth = 2; c.beginPath(); for (let s = .02; s <= .5; s *= 1.05) c[s > .02 ? 'lineTo' : 'moveTo'](X(s), Y(crossing(state.angle, s, UM))); c.stroke();
   c.fillStyle = A; c.beginPath(); c.arc(X(w.slope.value[0]), Y(w.sigma.value[0]), 5, 0, 7); c.fill();
