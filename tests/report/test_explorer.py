@@ -214,7 +214,7 @@ def test_a_link_keeps_what_was_moved(tmp_path):
     page = explorer_page(shown("ward", "lambertian+ggx"), "link")
     dark = ("--disable-3d-apis", "--blink-settings=preferredColorScheme=0")
     moved = told(in_browser(page, tmp_path, *dark, link="#a=1&wipe=0.25&1.ggx.alpha=0.4&0.ward.alpha=9e9"))
-    assert moved["printed"] == ["#e8eaed", "#000", "#e8eaed"]  # plots of a dark page are drawn anew for paper
+    assert moved["printed"] == ["#e8eaed", "#1f2328", "#e8eaed"]  # plots of a dark page are drawn anew for paper
     assert "ggx.alpha=0.4" in moved["words"][1]
     assert "ward.alpha=0.2" in moved["words"][0]  # out of bounds: not taken
     (tmp_path / "copied.yaml").write_text(moved["yaml"][1])

@@ -10,6 +10,7 @@ from .shaders import unindented
 
 STRING = re.compile(r"('(?:[^'\\\n]|\\.)*')")
 SIGNS = re.compile(r"(?<! ) *([=*<>(),;{}?:&|]|(?<!\+)(?<!\+ )\+(?! *\+)|(?<!-)(?<!- )-(?! *-)) *")
+LINES = re.compile(r"(?<=[;{,])\n")  # no line of code with a comment behind it ends so
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 BODY = """<div id="explorer">
 <div class="look"><p data-is="says" aria-live="polite"></p>
@@ -72,4 +73,4 @@ def _part(name: str) -> str:
     if not name.endswith(".js"):
         return text
     parts = STRING.split(text)  # every second one is a string
-    return "".join(part if place % 2 else SIGNS.sub(r"\1", part) for place, part in enumerate(parts))
+    return "".join(part if place % 2 else LINES.sub("", SIGNS.sub(r"\1", part)) for place, part in enumerate(parts))

@@ -23,6 +23,7 @@ STEPS = np.arange(-85.0, 85.1, 1.0)  # theta_r of a slice [deg]
 NEIGHBOURS = 12
 FAR, FARTHEST = 4.0, 12.0  # from where on the data are too far, in cells of about one degree; where they lie thin
 THIN = 2.0  # of the usual distance, where that is more than `FAR`
+BEYOND = 3.0  # cells that a slice may reach beyond the values that it is made of
 MOST_NEAR = 40_000  # samples beside the plane that a slice is made of
 
 
@@ -144,6 +145,7 @@ def sliced(measurement: Measurement, channel: int, geom: Geometry) -> np.ndarray
         usable, own = usable[kept], own[kept]
     count = min(NEIGHBOURS, len(usable))
     out, third = np.full(len(wanted), np.nan), np.full(len(wanted), np.inf)
+    among = np.zeros(len(wanted), bool)
     ln = np.log(measurement.brdf[usable, channel])
     for place, each in enumerate(wanted):
         squared = np.sum((own - each) ** 2, axis=1)
@@ -152,8 +154,16 @@ def sliced(measurement: Measurement, channel: int, geom: Geometry) -> np.ndarray
         distance = np.sqrt(squared[nearest])
         third[place] = distance[min(2, count - 1)]
         out[place] = np.exp(_plane_through(own[nearest] - each, distance, ln[nearest]))
-    near = third <= np.clip(THIN * np.quantile(third, 0.25), FAR, FARTHEST)
+        among[place] = _is_among(own[nearest] - each)
+    near = among & (third <= np.clip(THIN * np.quantile(third, 0.25), FAR, FARTHEST))
     return np.where(near, out, np.nan)
+
+
+def _is_among(offset) -> bool:
+    """Whether values lie on both sides along the first and the last coordinate, or near on one."""
+    along = offset[:, (0, 2)]
+    both = (along.min(axis=0) <= 0) & (along.max(axis=0) >= 0)
+    return bool(np.all(both | (np.abs(along).min(axis=0) <= BEYOND)))
 
 
 def _plane_through(offset, distance, ln) -> float:

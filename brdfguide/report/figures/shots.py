@@ -54,7 +54,9 @@ def _shot(row, seen: Sight, surface: Surface, wavelength) -> None:
         off = np.where(used, np.log(model.mean(-1) / light.mean(-1)), np.nan)
     marked = np.where(used[..., None], 0.5 * photograph + 0.5 * _displayed(USED), photograph)
     pictures = (photograph, marked, _displayed(model / white))
-    for axis, picture, title in zip(row, pictures, (printable.label(seen.label, 40), "used", "model"), strict=False):
+    for axis, picture, title in zip(
+        row, pictures, (printable.label(seen.label.replace(" degrees", "°"), 40), "used", "model"), strict=False
+    ):
         axis.imshow(picture, interpolation="nearest")
         axis.set_title(title, fontsize=7)
     drawn = row[3].imshow(off, cmap="PuOr_r", norm=TwoSlopeNorm(0, -OFF, OFF), interpolation="nearest")
