@@ -117,22 +117,25 @@ def test_a_slice_ends_where_the_data_end():
         assert np.abs(each.theta_r).max() < 48
 
 
-def test_a_slice_does_not_reach_beyond_two_phase_angles():
-    """As photographs have them: half the phase is the difference angle, 20° and 55°; between, nothing was seen."""
-    rng = np.random.default_rng(3)
-    tilt, turn = np.radians(rng.uniform(0, 50, 6000)), rng.uniform(0, 2 * np.pi, 6000)
+def test_a_slice_of_two_phase_angles_stays_by_them_and_extrapolates_nothing():
+    """As photographs have them: half the phase is the difference angle, 20° and 55°, to 0.3°; noise of 2 %."""
+    rng, count = np.random.default_rng(3), 900
+    tilt, turn = np.radians(rng.uniform(0, 50, count)), rng.uniform(0, 2 * np.pi, count)
     half = np.stack([np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)], axis=-1)
-    apart, around = np.radians(rng.choice([20.0, 55.0], 6000)), rng.normal(size=(6000, 3))
+    apart = np.radians(rng.choice([20.0, 55.0], count) + rng.uniform(-0.3, 0.3, count))
+    around = rng.normal(size=(count, 3))
     across = np.cross(half, around)
     across /= np.linalg.norm(across, axis=1, keepdims=True)
     i = np.cos(apart)[:, None] * half + np.sin(apart)[:, None] * across
     r = 2 * np.cos(apart)[:, None] * half - i
     up = (i[:, 2] > 0.05) & (r[:, 2] > 0.05)
     geom = rows(Geometry.from_vectors(i[up], r[up], np.array([0.55])))
-    for each in panels.panels(Measurement(geom, ggx(geom)), 0).shown:
+    noisy = ggx(geom) * np.exp(rng.normal(0, 0.02, (len(geom), 1)))
+    for each in panels.panels(Measurement(geom, noisy), 0).shown:
         theta_d = np.degrees(np.arccos(each.geom.cos_d[:, 0]))
         assert np.minimum(np.abs(theta_d - 20), np.abs(theta_d - 55)).max() <= panels.BEYOND + 0.5
-        assert np.median(np.abs(np.log(each.value / ggx(each.geom)[:, 0]))) < 0.05
+        off = np.abs(np.log(each.value / ggx(each.geom)[:, 0]))
+        assert np.median(off) < 0.06 and off.max() < 0.15
 
 
 def test_directions_far_from_the_plane_are_drawn_over_the_half_vector():

@@ -23,6 +23,7 @@ STEPS = np.arange(-85.0, 85.1, 1.0)  # theta_r of a slice [deg]
 NEIGHBOURS = 12
 FAR, FARTHEST = 4.0, 12.0  # from where on the data are too far, in cells of about one degree; where they lie thin
 THIN = 2.0  # of the usual distance, where that is more than `FAR`
+STIFF = 0.3  # squared cells: slopes are told by values that are spread by more than their root
 BEYOND = 3.0  # cells that a slice may reach beyond the values that it is made of
 MOST_NEAR = 40_000  # samples beside the plane that a slice is made of
 
@@ -168,11 +169,15 @@ def _is_among(offset) -> bool:
 
 def _plane_through(offset, distance, ln) -> float:
     """The height at 0 of a weighed plane over the first and the last coordinate; no higher and no lower than what it
-    goes through."""
+    goes through. It is level along a coordinate where all values lie on one side, and nearly so where they lie close
+    together: there nothing tells its slope.
+    """
     width = max(distance[len(distance) // 2], 0.5)
     weight = np.exp(-0.5 * (distance / width) ** 2)
-    basis = np.stack([np.ones_like(ln), offset[:, 0], offset[:, 2]], axis=1)
-    square = (basis * weight[:, None]).T @ basis + np.diag([0.0, 1e-3, 1e-3])
+    along = offset[:, (0, 2)]
+    along = along * ((along.min(axis=0) <= 0) & (along.max(axis=0) >= 0))
+    basis = np.concatenate([np.ones((len(ln), 1)), along], axis=1)
+    square = (basis * weight[:, None]).T @ basis + np.diag([0.0, STIFF, STIFF])
     height = np.linalg.solve(square, basis.T @ (weight * ln))[0]
     return float(np.clip(height, ln.min(), ln.max()))
 
