@@ -60,12 +60,9 @@ def _keep(figure, path, theme="light") -> None:
 
 
 def _of_measurement(measurement) -> None:
-    """Raises InputError where there is no value to draw."""
-    if not measurement.usable.any():
-        raise InputError("no positive value")
-    rows = test_eye.ranking(measurement)
-    drawing.plot_ranking(rows, measurement, Path("it.png"))
-    for draw in (lobe_views.plot_polar, beta.plot_beta, lobe_views.plot_in_space):
+    rows = test_eye.ranking(measurement) if measurement.usable.any() else None  # without a value there is no fit
+    drawn = (drawing.plot_ranking, lobe_views.plot_polar, beta.plot_beta, lobe_views.plot_in_space)
+    for draw in () if rows is None else drawn:
         try:
             draw(rows, measurement, Path("it.png"))
         except (InputError, NoAnswer) as refused:

@@ -10,8 +10,9 @@ from brdfguide import models
 from brdfguide.advice import library, material
 from brdfguide.advice import recommend as advisor
 from brdfguide.data import examine, formats
+from brdfguide.data.measurement import Measurement
 from brdfguide.models.surface import Surface
-from brdfguide.physics.geometry import in_plane
+from brdfguide.physics.geometry import in_plane, rows
 from brdfguide.report.documents import emergence
 from brdfguide.report.figures import beta, inspection, lobe_views, paper, promises, style
 from brdfguide.report.figures import emergence as contours
@@ -95,6 +96,13 @@ def test_a_survey_of_a_table_slices_it(saved):
         expected = ggx(in_plane(theta_i, line.get_xdata()))
         assert np.median(np.abs(np.log(line.get_ydata() / expected))) < 0.03
     assert faults(saved[0]) == []
+
+
+def test_a_survey_without_a_value_says_so(saved):
+    data = Measurement(rows(in_plane(30.0, np.arange(0.0, 60, 10))), np.zeros((6, 1)))
+    inspection.plot_survey(data, np.zeros(6, bool), None, None, "it.png", "made")
+    panel = next(axes for axes in saved[0].axes if axes.get_title("left").startswith("d"))
+    assert [text.get_text() for text in panel.texts] == ["no positive value"] and faults(saved[0]) == []
 
 
 @pytest.mark.parametrize("name", MATERIALS)

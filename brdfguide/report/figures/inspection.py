@@ -146,6 +146,10 @@ def _plane(axes, measurement: Measurement, spiky, norm) -> None:
     if axes.get_legend_handles_labels()[1]:
         pad = {"handletextpad": 0.7 if sliced else 0.2, "handlelength": 1.6, "borderaxespad": 0.4}
         axes.legend(title="θi", title_fontsize=7, fontsize=6.5, labelspacing=0.25, **pad)
+    else:
+        said = "no scan of four values or more" if usable.any() else "no positive value"
+        axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", fontsize=7.5)
+        axes.set_yticks([])
     where = "in the plane of incidence" if width < 1 else f"within {width:g}° of the plane"
     if width >= 90:
         where = "all directions"
