@@ -150,6 +150,7 @@ def _plane(axes, measurement: Measurement, spiky, norm) -> None:
         said = "no scan of four values or more" if usable.any() else "no positive value"
         axes.text(0.5, 0.5, said, transform=axes.transAxes, ha="center", fontsize=7.5)
         axes.set_yticks([])
+        axes.set_yticks([], minor=True)
     where = "in the plane of incidence" if width < 1 else f"within {width:g}° of the plane"
     if width >= 90:
         where = "all directions"
