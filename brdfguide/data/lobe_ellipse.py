@@ -135,8 +135,9 @@ def _above_body(measurement: Measurement, rows) -> tuple[np.ndarray, np.ndarray,
 
 def _facets(geom, rows, lobe) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Both slopes of facets, and ln of their density in what they send: without masking f cos θi cos θr/(1 + |s|²)²."""
-    x, y = (each[rows, 0] / geom.v_z[rows, 0] for each in geom.v_xy)
-    return x, y, np.log(lobe * geom.cos_cos[rows, 0]) - 2 * geom.ln_sec2_h[rows, 0]
+    geom = geom[rows]  # of a large table nothing is formed for all
+    x, y = (each[:, 0] / geom.v_z[:, 0] for each in geom.v_xy)
+    return x, y, np.log(lobe * geom.cos_cos[:, 0]) - 2 * geom.ln_sec2_h[:, 0]
 
 
 def _of_incidence(measurement: Measurement, rows, two) -> np.ndarray | None:
@@ -144,8 +145,8 @@ def _of_incidence(measurement: Measurement, rows, two) -> np.ndarray | None:
     if (above := _above_body(measurement, rows)) is None:
         return None
     rows, level, body = above
-    top = rows[np.argmax(level)]
-    if retro_distance_deg(measurement.geom)[top, 0] < np.degrees(np.sqrt(measurement.geom.mirror_distance2[top, 0])):
+    top = measurement.geom[rows[[np.argmax(level)]]]
+    if retro_distance_deg(top)[0, 0] < np.degrees(np.sqrt(top.mirror_distance2[0, 0])):
         return None  # it is brightest toward the light, and no lobe of facets
     turns = turn_of_each(measurement.geom)
     scan = np.zeros(len(rows), int) if turns is None else turns[rows]
