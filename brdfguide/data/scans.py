@@ -61,7 +61,7 @@ def zero_finding(measurement: Measurement) -> Finding | None:
     if peak is None:
         return None
     zeros = np.arange(-MOST_ZERO_DEG, MOST_ZERO_DEG + 0.01, 0.05)
-    apart = np.array([_apart(scans, zero) for zero in zeros])
+    apart = _apart(scans, zeros)
     if not np.isfinite(apart).any():
         return None
     best, as_reported = int(np.nanargmin(apart)), float(np.interp(0.0, zeros, apart))
@@ -122,24 +122,28 @@ def _scan(measurement: Measurement, places) -> tuple[np.ndarray, np.ndarray]:
     return angle, level[first]
 
 
-def _apart(scans: dict[float, tuple[np.ndarray, np.ndarray]], zero: float) -> float:
-    """rms of ln between exchanged values, were this the arm's zero [deg]; NaN for too few."""
-    gaps = []
-    for one, other in combinations(scans, 2):
-        for side in (1, -1):
-            a = _at(*scans[one], side * other + zero)
-            b = _at(*scans[other], side * one + zero)
-            gaps.append(a - b)
-    known = np.array(gaps)[np.isfinite(gaps)]
-    return float(np.sqrt(np.mean(known**2))) if len(known) >= LEAST_PAIRS else np.nan
+def _apart(scans: dict[float, tuple[np.ndarray, np.ndarray]], zeros) -> np.ndarray:
+    """rms of ln between exchanged values, were each of these the arm's zero [deg]; NaN for too few pairs."""
+    gaps = [
+        _at(*scans[one], side * other + zeros) - _at(*scans[other], side * one + zeros)
+        for one, other in combinations(scans, 2)
+        for side in (1, -1)
+    ]
+    squares = np.square(gaps)
+    pairs = np.count_nonzero(np.isfinite(squares), axis=0)
+    mean = np.nansum(squares, axis=0) / np.maximum(pairs, 1)
+    return np.where(pairs >= LEAST_PAIRS, np.sqrt(mean), np.nan)
 
 
-def _at(angle, ln, place: float) -> float:
+def _at(angle, ln, places) -> np.ndarray:
     """ln between the readings; NaN outside them and across a gap."""
-    after = int(np.searchsorted(angle, place))
-    if not 0 < after < len(angle) or angle[after] - angle[after - 1] > WIDEST_STEP_DEG:
-        return np.nan
-    return float(np.interp(place, angle, ln))
+    if len(angle) < 2:
+        return np.full(np.shape(places), np.nan)
+    after = np.searchsorted(angle, places)
+    inside = (after > 0) & (after < len(angle))
+    after = np.clip(after, 1, len(angle) - 1)
+    near = inside & (angle[after] - angle[after - 1] <= WIDEST_STEP_DEG)
+    return np.where(near, np.interp(places, angle, ln), np.nan)
 
 
 def _peak_offset(angle, ln, theta: float) -> float | None:

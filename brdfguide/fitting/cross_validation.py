@@ -77,22 +77,12 @@ def growth(fit: Fit, measurement: Measurement) -> dict | None:
     R-mirror = f(mirror, high) / f(mirror, low);  R-max the same for the largest value in the plane of incidence. The
     model is taken at the measured direction nearest to the mirror's.
     """
-    channel = measurement.brdf.shape[1] // 2
-    angles = _compared_incidences(measurement)
-    if angles is None:
+    grown = _grown(measurement)
+    if grown is None:
         return None
-    # a peak beyond the last detector angle is in no data
-    angular_range = min(85.0, float(np.max(measurement.geom.theta_r_deg)))
-    theta_r = np.linspace(-angular_range, angular_range, 171)
-    surface, model, data = fit.surface.channel(channel), [], []
-    for theta in angles:
-        nearest, mirror, largest = _peaks(measurement, theta, channel)
-        at_mirror, scan = (
-            reading(surface, Instrument(geom, measurement.solid_angle))
-            for geom in (nearest or rows(in_plane(theta, [theta])), rows(in_plane(theta, theta_r)))
-        )
-        model.append((float(at_mirror[0, 0]), float(np.max(scan))))
-        data.append((mirror, largest))
+    surface = fit.surface.channel(measurement.brdf.shape[1] // 2)
+    model = [tuple(float(np.max(reading(surface, each))) for each in (mirror, scan)) for mirror, scan in grown.at]
+    angles, data = grown.angles, grown.data
 
     def ratio(pair, place):
         return pair[1][place] / pair[0][place] if pair[0][place] else np.nan
@@ -101,6 +91,33 @@ def growth(fit: Fit, measurement: Measurement) -> dict | None:
         "theta_i_deg": list(angles), "r_mirror": ratio(model, 0), "r_max": ratio(model, 1),
         "r_mirror_data": ratio(data, 0), "r_max_data": ratio(data, 1),
     }  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _Grown:
+    """Where the growth of a model is looked at, and what the data have there."""
+
+    angles: tuple[float, float]  # of incidence [deg], the lowest and the highest
+    at: list[tuple[Instrument, Instrument]]  # of each the direction nearest to the mirror's, and a scan
+    data: list[tuple[float, float]]  # of each the value nearest to the mirror direction, and the largest
+
+
+@formed
+def _grown(measurement: Measurement) -> _Grown | None:
+    """None where there are not two incidences to compare."""
+    angles = _compared_incidences(measurement)
+    if angles is None:
+        return None
+    # a peak beyond the last detector angle is in no data
+    angular_range = min(85.0, float(np.max(measurement.geom.theta_r_deg)))
+    theta_r = np.linspace(-angular_range, angular_range, 171)
+    at, data = [], []
+    for theta in angles:
+        nearest, mirror, largest = _peaks(measurement, theta, measurement.brdf.shape[1] // 2)
+        scan, nearest = rows(in_plane(theta, theta_r)), nearest or rows(in_plane(theta, [theta]))
+        at.append((Instrument(nearest, measurement.solid_angle), Instrument(scan, measurement.solid_angle)))
+        data.append((mirror, largest))
+    return _Grown(angles, at, data)
 
 
 def imitation(fit: Fit, held: HeldOut | None, single: float = np.inf) -> Finding | None:
@@ -119,9 +136,10 @@ def _lobes(fit: Fit) -> int:
     return sum(term.label.rpartition(".")[2].isdigit() for term in fit.model.terms)
 
 
+@formed
 def thinned(measurement: Measurement) -> Measurement:
     """Few enough directions and channels for repeated fits."""
-    kept = measurement[measurement.has_value]
+    kept = measurement if measurement.has_value.all() else measurement[measurement.has_value]
     rows = starting_grid.spread_rows(kept, SAMPLES)
     return kept[rows].of_channels(few_channels(measurement.brdf.shape[1]))
 
