@@ -27,6 +27,8 @@ from .model import Extreme, Model, Parameter, Pin, at
 
 NODES = 40  # of the Chebyshev series: 31 hold J to 1e-14 at g = 1000, 10 at g = 2
 STEP = 0.1  # of the trapezoidal rule
+WIDE_STEP = 0.15  # the same to 3e-15 where p is small
+WIDE_UP_TO = 5.0  # this p
 DEGREE = 14  # of the polynomial that shaders have for it: 5e-7
 
 
@@ -69,7 +71,7 @@ def _table(g: float):
         return np.stack([j, by_j - j * by_norm / norm]) / (2 * norm)
 
     series = chebyshev.series(functions, NODES)
-    return lambda s, count: series((2 / end) * (s / (s + narrow)) - 1, count)
+    return chebyshev.Stretched(series, lambda s: (2 / end) * (s / (s + narrow)) - 1)
 
 
 def _narrow(g: float) -> float:
@@ -89,15 +91,19 @@ def _integrals(p: float, s: np.ndarray):
 
     For p below 2, where J's tail is long, J = 1/(2 (p - 1)) - s K.
     """
-    y = np.arange(-3.9, 3 + 38 / min(2 * p - 1, 8.0), STEP)
-    x = np.exp(y - np.exp(-y)) / (np.sqrt(p) + p * s)[:, None]
+    step = WIDE_STEP if p < WIDE_UP_TO else STEP
+    y = np.arange(-3.9, 3 + 38 / min(2 * p - 1, 8.0), step)
+    grown, scale = np.exp(y - np.exp(-y)), np.sqrt(p) + p * s
+    x = grown / scale[:, None]
     ln_base = np.log1p(x * (2 * s[:, None] + x))
-    k = np.exp(-p * ln_base) * x * (1 + np.exp(-y)) * STEP
-    by_k = -(k * ln_base).sum(axis=1)
+    falls = np.exp(-p * ln_base)
+    falls_by_p = -falls * ln_base
+    dx = grown * (1 + np.exp(-y)) * step  # of x times its scale, and x dx of its square
+    k, by_k = falls @ dx / scale, falls_by_p @ dx / scale
     if p < 2:
         half = 0.5 / (p - 1)
-        return k.sum(axis=1), by_k, half - s * k.sum(axis=1), -half / (p - 1) - s * by_k
-    return k.sum(axis=1), by_k, (k * x).sum(axis=1), -(k * x * ln_base).sum(axis=1)
+        return k, by_k, half - s * k, -half / (p - 1) - s * by_k
+    return k, by_k, falls @ (grown * dx) / scale**2, falls_by_p @ (grown * dx) / scale**2
 
 
 def brdf(geom: Geometry, *, alpha, g, n, k, scale) -> np.ndarray:

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 
+TOGETHER = 16_384  # values that are summed in one call, which fit the processor's cache
 CHOP = 1e-15  # of the greatest coefficient: smaller ones at the end of a series are dropped
 
 
@@ -16,17 +17,45 @@ class Series:
     coefficients: np.ndarray
 
     def __call__(self, x, count: int) -> list[np.ndarray]:
-        """The first `count` functions, by Clenshaw's recurrence."""
-        twice, found = x + x, []
-        for coefficients in self.coefficients[:count].tolist():
-            above, beyond = np.zeros_like(x), np.zeros_like(x)
-            for coefficient in coefficients[:0:-1]:
-                following = twice * above  # 2x b_(k+1) - b_(k+2) + c_k
-                following -= beyond
-                following += coefficient
-                above, beyond = following, above
-            found.append(x * above - beyond + coefficients[0])
-        return found
+        """The first `count` functions."""
+        columns = self.coefficients[:count].T.reshape(-1, count, *(1,) * np.ndim(x))
+        if count * np.size(x) <= TOGETHER:
+            return list(_clenshaw(columns, x))
+        return [_clenshaw(columns[:, place], x) for place in range(count)]
+
+
+@dataclass(frozen=True, eq=False)
+class Stretched:
+    """A Series in a variable of its own, which is -1..1 where x is what it is kept for."""
+
+    series: Series
+    variable: Callable[[np.ndarray], np.ndarray]
+
+    def __call__(self, x, count: int) -> list[np.ndarray]:
+        """The first `count` functions."""
+        return self.series(self.variable(x), count)
+
+
+def _clenshaw(columns, x) -> np.ndarray:
+    """Σ c_k T_k(x) by Clenshaw's recurrence, b_k = 2x b_(k+1) - b_(k+2) + c_k; c_k (...) broadcasts to x (...)."""
+    twice = x + x
+    above = beyond = np.zeros(np.broadcast_shapes(columns.shape[1:], np.shape(x)))
+    for column in columns[:0:-1]:
+        following = twice * above
+        following -= beyond
+        following += column
+        above, beyond = following, above
+    return x * above - beyond + columns[0]
+
+
+def _side_by_side(tables: list[Stretched], x, count: int) -> list[np.ndarray]:
+    """The first `count` functions of each table at its own x, (tables, ...)."""
+    longest = max(each.series.coefficients.shape[1] for each in tables)
+    columns = np.zeros((longest, count, len(tables), *(1,) * (x.ndim - 1)))  # a zero more at the end changes nothing
+    for place, each in enumerate(tables):
+        known = each.series.coefficients[:count]
+        columns[: known.shape[1], :, place] = known.T.reshape(*known.T.shape, *(1,) * (x.ndim - 1))
+    return list(_clenshaw(columns, np.stack([each.variable(part) for each, part in zip(tables, x, strict=True)])))
 
 
 def series(functions: Callable[[np.ndarray], np.ndarray], count: int) -> Series:
@@ -69,8 +98,12 @@ def by_value(table: Callable[..., Callable], x, count: int, *parameters) -> list
     shape = np.broadcast_shapes(np.shape(x), together.shape[:-1])
     x, found = np.broadcast_to(x, shape), [np.empty(shape) for _ in range(count)]
     if len(shape) == together.ndim - 1 and together.size == len(together) * len(parameters):  # one for each first place
-        for place, values in enumerate(together.reshape(-1, len(parameters)).tolist()):
-            for whole, part in zip(found, table(*values)(x[place], count), strict=True):
+        tables = [table(*values) for values in together.reshape(-1, len(parameters)).tolist()]
+        stretched = [each for each in tables if isinstance(each, Stretched)]
+        if len(stretched) == len(tables) and count * x.size <= TOGETHER:
+            return _side_by_side(stretched, x, count)
+        for place, each in enumerate(tables):
+            for whole, part in zip(found, each(x[place], count), strict=True):
                 whole[place] = part
         return found
     for values in np.unique(together.reshape(-1, len(parameters)), axis=0):
@@ -80,7 +113,7 @@ def by_value(table: Callable[..., Callable], x, count: int, *parameters) -> list
     return found
 
 
-def over_logarithms(functions: Callable, scale: float, end: float) -> Callable:
+def over_logarithms(functions: Callable, scale: float, end: float) -> Stretched:
     """Functions of x in 0..end as Series in asinh(x/scale), for those whose nearest singularity is at ±i scale.
 
     Takes functions(x (nodes,)) -> (functions, nodes).    Gives table(x, count), the first `count` of them.
@@ -89,4 +122,4 @@ def over_logarithms(functions: Callable, scale: float, end: float) -> Callable:
     ratio = 0.5 * np.pi / half
     count = int(30 / np.log(ratio + np.hypot(ratio, 1.0))) + 4  # e^-30 is left of the ellipse of that strip
     found = series(lambda x: functions(scale * np.sinh(half * (x + 1))), count)
-    return lambda x, count: found(np.arcsinh(x / scale) / half - 1, count)
+    return Stretched(found, lambda x: np.arcsinh(x / scale) / half - 1)

@@ -67,3 +67,5 @@ def test_a_value_for_each_channel_is_that_of_the_channel_alone(name):
     for channel in range(3):
         alone = law(geom, **{key: float(value[channel]) for key, value in pairs.items()})[:, 0]
         np.testing.assert_array_equal(together[:, channel], alone)
+    side_by_side = law(geom.channels_first, **{key: value[:, None] for key, value in pairs.items()})
+    np.testing.assert_allclose(side_by_side, together.T, rtol=1e-14)
