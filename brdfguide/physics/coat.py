@@ -17,6 +17,8 @@ from . import fresnel
 from .directions import Directions
 from .geometry import Geometry
 
+KEPT = 3  # an index and those on either side of it
+
 
 @dataclass(frozen=True, eq=False)
 class Inside:
@@ -52,21 +54,26 @@ def _refracted(outside: Directions, n) -> Inside:
     return Inside(inside, through_i * through_r / (n * n))
 
 
-class _Last:
-    """The Inside of the last index, kept with the directions: a fit asks for one index many times."""
+class _Lately:
+    """The Insides of the last few indices, kept with the directions: the terms of a sum ask for the same one, and so do
+    the differences on either side of it.
+    """
 
     def __init__(self, _: Directions):
-        self.kept: tuple[float, Inside] | None = None
+        self.kept: dict[tuple, Inside] = {}
 
-    def under(self, outside: Directions, n: float) -> Inside:
-        if self.kept is None or self.kept[0] != n:
-            self.kept = n, _refracted(outside, n)
-        return self.kept[1]
+    def under(self, outside: Directions, n) -> Inside:
+        key = np.shape(n), np.asarray(n, float).tobytes()
+        inside = self.kept.get(key)
+        if inside is None:
+            inside = _refracted(outside, n)
+            self.kept = dict([*self.kept.items(), (key, inside)][-KEPT:])
+        return inside
 
 
 def under(geom: Geometry, n) -> tuple[Inside, Geometry]:
     """What lies under a coat of index n, a number or one for each channel; and with the shorter wavelength there."""
-    inside = _refracted(geom.directions, n) if np.ndim(n) else geom.formed(_Last).under(geom.directions, float(n))
+    inside = geom.formed(_Lately).under(geom.directions, n if np.ndim(n) else float(n))
     return inside, Geometry(inside.directions, geom.wavelength / n)
 
 

@@ -59,6 +59,8 @@ def one_minus_fresnel(cos_d, n, k=0.0):
     """
     e2, total, share, all_of_it, rise, s2 = _interface(cos_d, n, k)
     bare = (e2 == 0) | (total == 0)
+    if not bare.any():
+        return np.minimum(rise * (2 * share / total + s2) / all_of_it, 1.0)
     enters = rise * (2 * share / np.where(bare, 1.0, total) + s2) / np.where(bare, 1.0, all_of_it)
     return np.where(bare, 1.0, np.minimum(enters, 1.0))
 

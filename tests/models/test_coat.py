@@ -202,3 +202,11 @@ def test_an_expression_spells_what_it_was_read_from(expression):
 def test_what_is_no_coat_is_refused_in_a_sentence(expression, sentence):
     with pytest.raises(InputError, match=sentence):
         models.get(expression)
+
+
+def test_indices_in_turn_are_each_answered_as_on_fresh_directions():
+    """What lies under the last few is kept; one for each channel is not that of another channel's."""
+    geom, indices = rows(in_plane(30.0, np.array([-20.0, 30.0, 60.0]))), (1.5, 1.4, np.array([1.4, 1.5]), 1.6, 1.7)
+    for n in (*indices, *reversed(indices), np.array([1.5, 1.4])):
+        np.testing.assert_array_equal(optics.under(geom, n)[0].gate, optics.under(geom.afresh(), n)[0].gate)
+        assert optics.under(geom, n)[0] is optics.under(geom, n)[0]
