@@ -1,16 +1,17 @@
 """Our fit against what a careful user would write: a plain SciPy script and lmfit, same data, same run; and whole
 commands, cold.
 
-    python benchmarks/fit_speed.py [MERL table]
+    python benchmarks/fit_speed.py [MERL table] [--before TREE]
 
 20,000 scattered directions, three channels, 3 % noise, a Lambertian body under a GGX lobe: one width, an albedo and an
 index for each channel, residuals ln(model/data). The scripts get the formula written out in NumPy, start from the
 defaults and let least_squares difference it (as nearly every published script does), and once more with our
-derivatives. Processor time, one thread, least of three turns. With a MERL table, also the whole command on it.
+derivatives. Processor time, one thread, least of three turns. Whole commands also on the small files of examples/ and
+on a MERL table, in turns with another tree of this program where one is given.
 """
 
+import argparse
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -32,6 +33,7 @@ from brdfguide.fitting.objective import Misfit, metric
 from tests import synthetic
 
 DIRECTIONS, CHANNELS, TURNS, COLD_TURNS = 20_000, 3, 3, 7
+SMALL = ("white_paper.csv", "rough_plastic.csv", "rough_aluminium.csv", "metallic_paint.csv", "smooth_steel.csv")
 MODEL = models.get("lambertian+ggx")
 TRUTH = {"lambertian.albedo": np.array([0.30, 0.20, 0.10]), "ggx.alpha": 0.25, "ggx.n": np.array([1.50, 1.52, 1.55])}
 START = np.r_[0.2, [0.5] * 3, [1.5] * 3]
@@ -111,21 +113,36 @@ def ours(data):
     return fitting.fit(MODEL, data).rms_ln
 
 
-def cold(path, *words) -> tuple[float, float, float]:
-    """Processor seconds, wall seconds and peak memory [MB] of a whole command in a new process."""
-    before, began = os.times(), time.perf_counter()
-    subprocess.run(
+def cold(path, tree: Path) -> tuple[float, float]:
+    """Processor seconds and peak memory [MB] of a whole command in a new process, without the card."""
+    words = ["--no-numbers"] if tree == ROOT else []  # which an older tree has not
+    process = subprocess.Popen(
         [sys.executable, "-m", "brdfguide", "fit", str(path), "--quiet", *words],
-        cwd=ROOT,
-        check=True,
+        cwd=tree,
+        env={**os.environ, "PYTHONPATH": str(tree)},
         stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
     )
-    after, wall = os.times(), time.perf_counter() - began
-    used = after.children_user + after.children_system - before.children_user - before.children_system
-    return used, wall, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode not in (0, 1):  # 1: an answer that is not to be trusted, such as of smooth_steel.csv
+        raise RuntimeError(f"{path}: status {process.returncode} in {tree}")
+    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
-def whole_commands(data, table: str | None) -> None:
+def in_turns(path, before: Path | None, turns: int) -> str:
+    """The least processor time and the greatest memory of the whole command, and those of the tree before."""
+    trees = [ROOT] if before is None else [ROOT, before]
+    rounds = [[cold(path, tree) for tree in trees] for _ in range(turns)]
+    shown, sums = [], []
+    for each in zip(*rounds, strict=True):
+        seconds, memory = zip(*each, strict=True)
+        shown.append(f"{min(seconds):.2f} s, {max(memory):.0f} MB")
+        sums.append(sum(seconds))
+    return f"  {Path(path).name:26} {' against '.join(shown)}; by their sums {sums[0] / sums[-1]:.2f} times"
+
+
+def whole_commands(data, table: str | None, before: Path | None) -> None:
     """Before SciPy is imported: a new process is born with the peak memory of its parent."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "data.csv"
@@ -143,19 +160,16 @@ def whole_commands(data, table: str | None) -> None:
             header="theta_i_deg,phi_i_deg,theta_r_deg,phi_r_deg,450,550,650",
             comments="",
         )
+        print(
+            f"whole commands, cold, all default candidates with uncertainties and held-out errors, one core, least "
+            f"processor time of {COLD_TURNS} turns ({TURNS} of a MERL table), against {before or 'no other tree'}:"
+        )
         with one_core():
-            used, wall, memory = zip(*(cold(path) for _ in range(COLD_TURNS)), strict=True)
-    print(
-        f"{DIRECTIONS} directions x {CHANNELS} channels, whole command, cold, all default candidates with "
-        f"uncertainties and held-out errors, one core, {COLD_TURNS} turns:"
-    )
-    print(
-        f"  {min(used):.2f} to {max(used):.2f} s processor, {min(wall):.2f} to {max(wall):.2f} s by the clock, "
-        f"{max(memory):.0f} MB"
-    )
-    if table:
-        used, wall, memory = cold(table)
-        print(f"{Path(table).name}: {used:.1f} s processor, {wall:.1f} s by the clock, {memory:.0f} MB")
+            print(in_turns(path, before, COLD_TURNS), f"({DIRECTIONS} directions x {CHANNELS} channels)")
+            for small in SMALL:
+                print(in_turns(ROOT / "examples" / small, before, COLD_TURNS))
+            if table:
+                print(in_turns(Path(table).resolve(), before, TURNS))
 
 
 @contextmanager
@@ -170,12 +184,16 @@ def one_core():
     os.sched_setaffinity(0, every)
 
 
-def main(table: str | None) -> None:
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("table", nargs="?")
+    parser.add_argument("--before", type=Path, help="a tree of this program to take turns with")
+    asked = parser.parse_args()
     data = synthetic.surface(MODEL, synthetic.hemisphere(DIRECTIONS), TRUTH, noise=0.03, seed=1, channels=CHANNELS)
     assert np.allclose(
         plain(data.geom, np.r_[0.25, TRUTH["lambertian.albedo"], TRUTH["ggx.n"]]), MODEL(data.geom, TRUTH), rtol=1e-12
     )
-    whole_commands(data, table)
+    whole_commands(data, asked.table, asked.before and asked.before.resolve())
     rivals = {
         "ours: starts, fit, intervals, doubts": ours,
         "SciPy, differences": with_scipy,
@@ -206,4 +224,4 @@ def main(table: str | None) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1] if len(sys.argv) > 1 else None)
+    main()
