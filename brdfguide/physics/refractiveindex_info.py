@@ -26,7 +26,7 @@ class Entry:
 @lru_cache(maxsize=256)
 def substance(name: str, wavelength: float) -> Substance | None:
     """The entry `name` (a formula such as SiO2, or Au/Johnson) as a Substance; of several authors the middle n."""
-    if not re.fullmatch(r"[A-Za-z0-9().+-]+(/[\w.+-]+)?", name) or not installed():
+    if not installed() or not re.fullmatch(r"[A-Za-z0-9().+-]+(/[\w.+-]+)?", name):
         return None
     found, _ = find_entries(name, wavelength)
     if not found:
