@@ -22,6 +22,7 @@ OCTAVES_Y = 16  # of 1 + y/max(g, 4) that have cells
 PARTS = 8  # most into which an octave of the second is divided
 OUTSIDE = 2**16 - 1  # the number of what lies in no cell
 BLOCK = 4096  # samples at once, so that they stay in the processor's cache
+MANY = 32  # samples of a cell from which on it is evaluated by itself: below, calls cost more than products
 
 
 def ln_series(g, y, derivatives: bool = False):
@@ -159,7 +160,8 @@ def _evaluate(groups, t_g, t_y, out):
     """The polynomials into out[0]; their derivatives by t_g and t_y into out[1] and out[2] where these exist.
 
     Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand
-    products. Never for one sample alone, whose last digits would be summed in another order than among others.
+    products. So cells of few samples are evaluated together. Never one sample alone, whose last digits would be summed
+    in another order than among others.
     """
     for first in range(0, t_g.size, BLOCK):
         here = [
@@ -172,11 +174,33 @@ def _evaluate(groups, t_g, t_y, out):
         (_, most_y, most_g), part = np.max([cell.shape for cell, *_ in here], axis=0), slice(first, first + BLOCK)
         powers_g, powers_y = _powers_of(t_g[part], most_g), _powers_of(t_y[part], most_y)
         for cell, start, stop in here:
-            _, n_y, n_g = cell.shape
-            cut = slice(start, max(stop, start + 2))
-            inner = cell[: len(out)].reshape(-1, n_g) @ powers_g[:n_g, cut]
-            values = np.einsum("kin,in->kn", inner.reshape(len(out), n_y, -1), powers_y[:n_y, cut])
-            out[:, first + start : first + stop] = values[:, : stop - start]
+            if stop - start >= MANY:
+                values = _products(cell[None, : len(out)], powers_g[:, start:stop], powers_y[:, None, start:stop])
+                out[:, first + start : first + stop] = values[0]
+        few = [each for each in here if each[2] - each[1] < MANY]
+        if few:
+            cells, starts, stops = zip(*few, strict=True)
+            places = np.array(starts)[:, None] + np.arange(max(2, max(np.subtract(stops, starts))))
+            within = places < np.array(stops)[:, None]
+            places = np.minimum(places, t_g[part].size)
+            along_g, along_y = powers_g.take(places, axis=1).swapaxes(0, 1), powers_y.take(places, axis=1)
+            values = _products(_padded(cells, len(out), most_y, most_g), along_g, along_y)
+            out[:, first + places[within]] = values.swapaxes(0, 1)[:, within]
+
+
+def _padded(cells, kinds, most_y, most_g):
+    """The coefficients of cells of several sizes in one array, (cells, kinds, most_y, most_g)."""
+    padded = np.zeros((len(cells), kinds, most_y, most_g))
+    for row, cell in zip(padded, cells, strict=True):
+        row[:, : cell.shape[1], : cell.shape[2]] = cell[:kinds]
+    return padded
+
+
+def _products(coefficients, powers_g, powers_y):
+    """Polynomials (cells, kinds, n_y, n_g) at powers (cells, n_g, n) and (n_y, cells, n): (cells, kinds, n)."""
+    count, kinds, n_y, n_g = coefficients.shape
+    inner = coefficients.reshape(count, kinds * n_y, n_g) @ powers_g[..., :n_g, :]
+    return np.einsum("ckin,icn->ckn", inner.reshape(count, kinds, n_y, -1), powers_y[:n_y])
 
 
 def _powers_of(t, count):

@@ -156,6 +156,15 @@ def test_no_step_is_visible_across_the_cells_with_seed_32():
     assert np.max(np.abs(above - below)[at > -650]) < 2e-11
 
 
+def test_a_sample_hangs_on_no_other_in_its_cell_with_seed_34():
+    """Cells of few samples are evaluated together, those of many alone."""
+    random = np.random.default_rng(34)
+    g, y = 10 ** random.uniform(-4, 2, 40), 10 ** random.uniform(-3, 3, 40)
+    few = np.array(ln_series(g, y, derivatives=True))
+    many = np.array(ln_series(np.repeat(g, 40), np.repeat(y, 40), derivatives=True))[:, ::40]
+    np.testing.assert_allclose(few, many, rtol=2e-14, atol=1e-14)
+
+
 def test_outside_the_cells_the_terms_are_summed():
     g, y = np.array([1e-14, 1e-20, 1e9, 3.0]), np.array([0.3, 2.0, 1e9, 1e6])
     np.testing.assert_array_equal(ln_series(g, y), by_terms(g, y)[0])
