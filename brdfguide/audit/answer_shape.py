@@ -126,12 +126,22 @@ class PrintedRival:
 
 
 @dataclass(frozen=True)
+class PrintedIfRight:
+    """How probable a law is, and the recommended one's error outside if it is right."""
+
+    candidate: str
+    probability: float
+    rms_ln: float
+
+
+@dataclass(frozen=True)
 class PrintedPrice:
     """The error that is expected out of the plane of incidence."""
 
     rms_ln: Number
     in_plane_rms_ln: Number
-    parameters_rms_ln: float
+    probability: Number
+    if_right: tuple[PrintedIfRight, ...]
     expected_percent: Number
     apart: tuple[PrintedRival, ...]
 

@@ -2,7 +2,8 @@
 the plane of incidence, what to type.
 
 R-mirror = f(mirror, high)/f(mirror, low) and R-max, the same for the largest value in the plane, of the model and of
-the data (Westin et al. 2004, section 6).    price² = (0.96 error in the plane)² + (3 doubt)²    (ours)
+the data (Westin et al. 2004, section 6).    price² = Σ p error² / Σ p over the laws, alike within 25 %, that are most
+probable together    (ours)
 """
 
 from collections.abc import Mapping
@@ -15,7 +16,7 @@ from .exact_errors import SMALLEST, Readings
 from .exact_surface import ExactReading, ExactSurface
 from .rederived import CLOSE, Comparisons
 
-IN_PLANE, DOUBT = mpf("0.96"), mpf(3)  # of the price
+ONE_PRICE = mpf("1.25")  # times, up to which errors are one
 PRICE_DIGITS = 3
 WIDEST_DEG = 85.0  # R-max looks no farther
 STEPS = 170  # of its scan, from one side to the other
@@ -164,20 +165,44 @@ def price(answer: dict, rows: Mapping[str, RowOfAnswer], data: Readings, found: 
     told, best = answer.get("off_plane"), rows.get(answer["recommended"])
     if told is None or best is None:
         return
-    expected = sqrt((IN_PLANE * best.rms) ** 2 + (DOUBT * mpf(told["parameters_rms_ln"])) ** 2)
+    expected, probability = _most_probable(told["if_right"], mpf(told["rms_ln"]))
     found.check("off_plane.in_plane_rms_ln", told["in_plane_rms_ln"], best.rms)
     found.check("off_plane.rms_ln", told["rms_ln"], expected)
+    found.check("off_plane.probability", told["probability"], probability)
     found.rounded("off_plane.expected_percent", told["expected_percent"], _percent(expected), PRICE_DIGITS)
+    then = {each["candidate"]: mpf(each["rms_ln"]) for each in told["if_right"]}
     for number, each in enumerate(told["apart"]):
         place = f"off_plane.apart[{number}]"
-        then = sqrt(expected**2 + mpf(each["rms_ln"]) ** 2)
-        found.rounded(f"{place}.then_percent", each["then_percent"], _percent(then), PRICE_DIGITS)
+        if each["candidate"] in then:
+            percent = _percent(then[each["candidate"]])
+            found.rounded(f"{place}.then_percent", each["then_percent"], percent, PRICE_DIGITS)
         rival = rows.get(each["candidate"])
         for rank, at in enumerate(each["at"] if rival is not None else ()):
             assert rival is not None
             sight = ExactReading((at["theta_i_deg"], 0.0, at["theta_r_deg"], at["phi_deg"]), data.solid_angle)
             right = _mean_ln(rival.surface, sight, data) - _mean_ln(best.surface, sight, data)
             found.check(f"{place}.at[{rank}].ln_ratio", at["ln_ratio"], right, absolute=1e-12)
+
+
+def _most_probable(laws: list[dict], told):
+    """The error that is told, and its probability: of the laws around one, the group with most; of groups with as much,
+    as where two laws stand for each other, the one that is nearest to what was told."""
+    groups = []
+    for one in laws:
+        near = [each for each in laws if _alike(each["rms_ln"], one["rms_ln"])]
+        weight = fsum(mpf(each["probability"]) for each in near)
+        power = fsum(mpf(each["probability"]) * mpf(each["rms_ln"]) ** 2 for each in near)
+        groups.append((weight, sqrt(power / weight)))
+    most = max(weight for weight, _ in groups)
+    total = fsum(mpf(each["probability"]) for each in laws)
+    weight, expected = min(
+        (each for each in groups if each[0] >= most * (1 - mpf(CLOSE))), key=lambda each: abs(each[1] - told)
+    )
+    return expected, weight / total
+
+
+def _alike(one: float, other: float) -> bool:
+    return 1 / ONE_PRICE <= mpf(one) / mpf(other) <= ONE_PRICE
 
 
 def _mean_ln(surface: ExactSurface, sight: ExactReading, data: Readings):

@@ -27,18 +27,15 @@ from ..physics.geometry import Geometry
 from .cross_validation import thinned
 from .goniometer import Goniometer
 from .hypotheses import Hypothesis
-from .layout import to_coordinate
+from .ln_slopes import ln_with_slopes
 from .next_measurement import difference_at, knowledge, reachable
-from .objective import SMALLEST
 from .ranked import Ranking
-from .reading import with_slopes
 
 TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes with the tilt, beyond with its logarithm
 WIDTHS = (1.2, 50.0, 50.0)  # of the kernel: asinh(tan tilt/TILT), angle from light to half vector, to grazing [deg]
 ROUGH = 1.0  # variance of what changes within degrees over that of what does not
 ROUGH_DEG = 5.0  # within so many
 SQUARES = 0.5  # how much it counts that the derivatives' own products are right
-STEEPEST = 50.0  # ∂ ln f/∂u beyond which a derivative counts no more
 LEAST = 1e-6  # of the largest strength, of a combination of parameters
 APART_DEG = 3.0  # between two directions of a plan
 BLOCK = 8  # directions after which one may stop, and plan again
@@ -112,11 +109,8 @@ class Everywhere:
 
     def _jacobian(self, hypothesis: Hypothesis) -> np.ndarray:
         """∂ ln f/∂u, (directions, parameters)."""
-        f, slopes = with_slopes(hypothesis.layout, hypothesis.surface, Instrument(self.geom, self.solid_angle))
-        keys = (*hypothesis.layout.shared, *hypothesis.layout.per_channel)
-        scales = [1.0 if hypothesis.layout.parameters[key].log else _size(hypothesis, key) for key in keys]
-        by = np.stack([slopes[key][:, 0] * size for key, size in zip(keys, scales, strict=True)], axis=1)
-        return np.clip(by / np.maximum(f, SMALLEST), -STEEPEST, STEEPEST)
+        there = Instrument(self.geom, self.solid_angle)
+        return ln_with_slopes(hypothesis.layout, hypothesis.surface, there)[1][:, 0]
 
     @cached_property
     def _alike(self) -> np.ndarray:
@@ -146,12 +140,6 @@ def _bell(place: np.ndarray) -> np.ndarray:
     """exp(-d²/2) between places (points, dimensions)."""
     squares = np.sum(place**2, axis=1)
     return np.exp(-0.5 * np.maximum(squares[:, None] + squares - 2 * place @ place.T, 0.0))
-
-
-def _size(hypothesis: Hypothesis, key: str) -> float:
-    """Of a parameter whose coordinate is its value: that, so that its derivative is by ln."""
-    value = float(np.mean(np.abs(to_coordinate(hypothesis.layout.parameters[key], hypothesis.surface.values[key]))))
-    return max(value, 1e-3)
 
 
 def plan_everywhere(

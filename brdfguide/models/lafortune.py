@@ -159,6 +159,7 @@ MODEL = Model(
     breaks={"energy": "a lobe tilted beyond 45° rises toward grazing without a bound on what it sends"},
     source="Lafortune et al. 1997",
     family="Lafortune",
+    about_mirror=True,
     cannot="nothing bounds its energy; it only follows a measurement, "
     "so its start values are a shape, not a prediction",
     candidacy=Candidacy(60, lobes=2),

@@ -103,6 +103,7 @@ MODEL = Model(
     summary="elliptic cosine lobe about a direction fixed in the sample: published fits; energy unbounded",
     source="Lafortune et al. 1997",
     family="Lafortune",
+    about_mirror=True,
     cannot="its lobe does not follow facets toward grazing; nothing bounds its energy",
     from_facets=lambda facets: {"ks": facets.peak, "exponent": facets.mirror_exponent},
     beyond_facets=lambda *, c_x, c_y, **_: "its grain has no counterpart" if np.any(np.not_equal(c_x, c_y)) else "",

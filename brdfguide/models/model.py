@@ -137,6 +137,7 @@ class Model:
     breaks: Mapping[str, str] = field(default_factory=dict)  # law of the contract -> why this model breaks it
     source: str = ""
     family: str = ""  # what it is one of: Phong, Ward, facets; figures draw the best of each of the report's
+    about_mirror: bool = False  # its lobe is formed about the mirror direction, not about the half vector
     cannot: str = ""  # what it leaves out, in a sentence for whoever is advised to take it
     aliases: tuple[str, ...] = ()  # other names that users type
     candidacy: Candidacy | None = None  # where the default ranking tries it; None: only where it is named

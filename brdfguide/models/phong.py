@@ -69,6 +69,7 @@ MODEL = Model(
     },
     source="Phong 1975",
     family="Phong",
+    about_mirror=True,
     cannot="sends back more light than it gets toward grazing, another share with light and eye exchanged",
     candidacy=Candidacy(10),
     from_facets=lambda facets: {"ks": facets.peak, "exponent": facets.mirror_exponent},

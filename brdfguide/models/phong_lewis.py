@@ -62,6 +62,7 @@ MODEL = Model(
     ),
     source="Lewis 1993",
     family="Phong",
+    about_mirror=True,
     cannot="does not brighten toward grazing at all; shows no mirror image",
     candidacy=Candidacy(20, substitutes=True),
     from_facets=lambda facets: {"ks": facets.f0, "exponent": facets.mirror_exponent},

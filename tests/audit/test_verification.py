@@ -20,7 +20,7 @@ from brdfguide.data.formats.format import InputError
 from brdfguide.data.measurement import Measurement
 from brdfguide.face.functions import fit
 from brdfguide.fitting.diagnostics import standard_errors
-from brdfguide.fitting.off_plane_price import DOUBT, IN_PLANE
+from brdfguide.fitting.off_plane_price import WITHIN
 from brdfguide.models.surface import Surface
 from brdfguide.physics.geometry import Geometry, rows
 from brdfguide.report.documents.digest import digest_holds
@@ -178,7 +178,9 @@ def test_a_changed_digit_of_a_parameter_is_found(answer):
     assert wrong >= {f"ranking[{place}]" for place in range(len(MODELS))}
 
 
-@pytest.mark.parametrize("place", ["typed", "recommended_fit", "in_plane_rms_ln", "expected_percent", "rms_ln"])
+@pytest.mark.parametrize(
+    "place", ["typed", "recommended_fit", "in_plane_rms_ln", "expected_percent", "rms_ln", "probability"]
+)
 def test_so_is_one_of_what_is_told_twice_and_of_the_price_out_of_the_plane(answer, place):
     document = deepcopy(answer[1])
     typed = document["ranking"][0]["typed"]
@@ -212,7 +214,7 @@ def test_where_a_rival_parts_out_of_the_plane_is_derived(answer):
 
 
 def test_the_price_is_formed_with_the_constants_of_the_fit():
-    assert (mpf(str(IN_PLANE)), mpf(str(DOUBT))) == (exact_followers.IN_PLANE, exact_followers.DOUBT)
+    assert np.exp(WITHIN) == pytest.approx(float(exact_followers.ONE_PRICE))
 
 
 def test_what_to_type_follows_from_the_errors_and_colours_beside_it():

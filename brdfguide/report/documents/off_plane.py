@@ -13,11 +13,14 @@ def price_block(price: Price | None) -> dict | None:
         "expected_percent": off_percent(price.rms_ln, digits=3),
         "rms_ln": price.rms_ln,
         "in_plane_rms_ln": price.in_plane,
-        "rivals_part_by_rms_ln": price.spread,
-        "parameters_rms_ln": price.doubt,
+        "probability": price.probability,
+        "if_right": [
+            {"candidate": each.name, "probability": each.probability, "rms_ln": each.rms_ln} for each in price.by_law
+        ],
         "apart": [
             {
                 "candidate": each.name,
+                "ties": each.ties,
                 "rms_ln": each.rms_ln,
                 "then_percent": off_percent(each.then, digits=3),
                 "at": [

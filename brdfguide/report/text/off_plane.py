@@ -25,7 +25,8 @@ def _price(price: dict | None):
     for each in price["apart"][:SHOWN]:
         at = each["at"][0]
         place = f"theta_i {at['theta_i_deg']:g}, theta_r {at['theta_r_deg']:g}, phi {at['phi_deg']:g} deg"
-        said = f"{each['candidate']} ties with it in the plane and parts from it outside, most at {place}"
+        how = "ties with it in the plane" if each["ties"] else "may as well be right"
+        said = f"{each['candidate']} {how} and parts from it outside, most at {place}"
         yield f"{said}: {each['then_percent']:.2g} % off if that one is right"
 
 

@@ -1,0 +1,44 @@
+"""A smooth unknown beside a linear model, against the same by the covariance of everything at once."""
+
+import numpy as np
+import pytest
+
+from brdfguide.numerics import gaussian_process
+from brdfguide.numerics.gaussian_process import Places, foretold
+
+RANDOM = np.random.default_rng(7)
+KNOWN, OTHERS = RANDOM.uniform(0, 4, (40, 2)), RANDOM.uniform(0, 4, (9, 2))
+SLOPES, ONWARD = RANDOM.standard_normal((40, 2)), RANDOM.standard_normal((9, 2))
+
+
+def _kernel(one, other):
+    return np.exp(-0.5 * np.sum((one[:, None] - other) ** 2, axis=2))
+
+
+def test_mean_and_variance_are_those_of_one_large_normal_distribution(monkeypatch):
+    monkeypatch.setattr(gaussian_process, "RATIOS", np.array([30.0]))
+    values = RANDOM.standard_normal(40)
+    found = foretold(Places.between(KNOWN, OTHERS), values, SLOPES, ONWARD)
+    ratio = 30.0 * found.noise
+    inside = ratio * _kernel(KNOWN, KNOWN) + SLOPES @ SLOPES.T + found.noise * np.eye(40)
+    across = ratio * _kernel(OTHERS, KNOWN) + ONWARD @ SLOPES.T
+    prior = ratio + np.sum(ONWARD**2, axis=1)
+    assert found.mean == pytest.approx(across @ np.linalg.solve(inside, values), rel=1e-6)
+    variance = prior - np.sum(across * np.linalg.solve(inside, across.T).T, axis=1)
+    assert found.variance == pytest.approx(variance, rel=1e-6)
+    evidence = -0.5 * (np.linalg.slogdet(inside)[1] + values @ np.linalg.solve(inside, values))
+    assert found.evidence == pytest.approx(evidence, rel=1e-6)
+
+
+def test_errors_elsewhere_are_as_large_as_foretold_on_seeds_0_to_59():
+    squares, foreseen = 0.0, 0.0
+    everywhere = np.concatenate([KNOWN, OTHERS])
+    root = np.linalg.cholesky(_kernel(everywhere, everywhere) + 1e-10 * np.eye(49))
+    for seed in range(60):
+        random = np.random.default_rng(seed)
+        unknown, b = 0.2 * root @ random.standard_normal(49), random.standard_normal(2)
+        values = unknown[:40] + SLOPES @ b + 0.02 * random.standard_normal(40)
+        found = foretold(Places.between(KNOWN, OTHERS), values, SLOPES, ONWARD)
+        squares += np.sum((unknown[40:] + ONWARD @ b - found.mean) ** 2)
+        foreseen += np.sum(found.variance)
+    assert 0.8 < squares / foreseen < 1.25
