@@ -192,7 +192,8 @@ def _most_probable(laws: list[dict], told):
         near = [each for each in laws if _alike(each["rms_ln"], one["rms_ln"])]
         weight = fsum(mpf(each["probability"]) for each in near)
         power = fsum(mpf(each["probability"]) * mpf(each["rms_ln"]) ** 2 for each in near)
-        groups.append((weight, sqrt(power / weight)))
+        if weight > 0:
+            groups.append((weight, sqrt(power / weight)))
     most = max(weight for weight, _ in groups)
     total = fsum(mpf(each["probability"]) for each in laws)
     weight, expected = min(

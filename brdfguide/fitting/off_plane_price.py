@@ -46,6 +46,7 @@ LEAST_PROBABLE = 0.01  # of a law that counts
 AS_WELL = 0.05  # probability from which a law that does not tie is told beside
 WITHIN = np.log(1.25)  # errors so near are one
 PARTS = 0.1  # ln, by which a rival parts from the recommended law outside: 10 % (ours)
+DIGITS = 6
 FAR = 3  # directions named where they part most
 
 
@@ -93,9 +94,9 @@ def off_plane_price(ranking: Ranking, measurement: Measurement) -> Price | None:
     probable = np.exp(probable - probable.max())
     probable /= probable.sum()
     gaps = [each.ln - said[best].ln for each in said]
-    then = [known.error(each, gap, weights) for each, gap in zip(said, gaps, strict=True)]
+    then = [_rounded(known.error(each, gap, weights)) for each, gap in zip(said, gaps, strict=True)]
     counted = [
-        IfRight(row.fit.name, float(probable[place]), then[place])
+        IfRight(row.fit.name, _rounded(probable[place]), then[place])
         for place, row in enumerate(laws)
         if probable[place] >= LEAST_PROBABLE or row.tied or place == best
     ]
@@ -125,6 +126,11 @@ def most_probable(by_law: tuple[IfRight, ...]) -> tuple[float, float]:
     best = max((group(each) for each in by_law), key=weight)
     mean = sum(each.probability * each.rms_ln**2 for each in best) / weight(best)
     return float(np.sqrt(mean)), float(weight(best) / weight(by_law))
+
+
+def _rounded(number) -> float:
+    """To the digits that are the same in every run: the order of sums in linear algebra is not."""
+    return float(f"{number:.{DIGITS}g}") if number > 1e-12 else 0.0
 
 
 def outside_plane(measurement: Measurement) -> tuple[Instrument, np.ndarray]:
