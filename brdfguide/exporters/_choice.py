@@ -190,8 +190,8 @@ def fresnel_index(surface: ColouredSurface, spectral: bool = False) -> tuple[np.
 
 def in_order_for(surfaces: Sequence[ColouredSurface], lobe: str = "") -> list[ColouredSurface]:
     """Of candidates for one surface, best first, those that keep what the first has: the mirror of a coat over
-    something, a highlight of some width, a grain, light sent back, a rim of fibres; of these alone those whose lobes
-    are the target's own, where it has one alone and there are such."""
+    something, a body or none, a highlight of some width, a grain, light sent back, a rim of fibres; of these alone
+    those whose lobes are the target's own, where it has one alone and there are such."""
     first = surfaces[0].model
     coated = len(first.terms) > 1 and any(term.model.is_mirror or term.model.is_coat for term in first.terms)
     kept = [each for each in surfaces if each.has_mirror] if coated else []
@@ -203,6 +203,7 @@ def _kinds(model: Composite) -> set[str]:
     """What the lobes of a sum are and do."""
     terms = [term.model for term in model.terms]
     has = {
+        "body" if any(each.is_body for each in terms) else "no body": True,
         "width": any(each.is_lobe for each in terms),
         "grain": model.turns,
         "sent back": any(each.returns_light for each in terms),

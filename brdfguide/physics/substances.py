@@ -26,7 +26,7 @@ METALS = vocabulary("""
     chromium cobalt constantan copper cupronickel duralumin electrum gallium gold gunmetal hafnium indium invar iridium
     iron lead lithium magnesium manganese mercury molybdenum monel nichrome nickel niobium osmium palladium pewter
     platinum potassium rhenium rhodium rubidium ruthenium silver sodium solder steel strontium tantalum tin tinplate
-    titanium tungsten vanadium zinc zirconium yttrium foil tinfoil inox galvanised galvanized
+    titanium tungsten vanadium zinc zirconium yttrium foil tinfoil inox stainless galvanised galvanized
 """)
 DIELECTRICS = vocabulary("""
     acrylic amber asphalt banana bakelite bark blood bone brick bread cardboard carrot cement ceramic chalk chalkboard
@@ -37,6 +37,9 @@ DIELECTRICS = vocabulary("""
     quartz resin rubber salt sand sandstone sapphire ruby emerald silica silk skin slate snow soap soil spectralon stone
     styrofoam sugar tar teflon terracotta textile tile tire tissue toothpaste tyre varnish velvet vinyl water wax
     whiteboard wine wood wool abs petg pmma toner ink gem beer vodka whiskey petroleum gasoline tea card
+    timber oak walnut pine spruce larch fir cedar beech birch maple elm teak mahogany rosewood ebony balsa bamboo rattan
+    cane straw wicker plywood chipboard fibreboard mdf veneer parquet plasterboard drywall stucco wallpaper carpet felt
+    denim canvas suede gneiss basalt travertine sandpaper epoxy polyamide pla
 """)
 SEMICONDUCTORS = vocabulary("""
     silicon germanium arsenide selenium graphite carbon graphene tellurium galena pyrite hematite silicide

@@ -92,8 +92,9 @@ def test_a_coats_mirror_is_not_given_up_for_a_better_number():
         (of("lambertian+beckmann", {"beckmann.alpha": 0.05}), of("lambertian+mirror")),
         (of("ggx-aniso", {"alpha_x": 0.2, "alpha_y": 0.04, "n": 1.2, "k": 6.0}), of("ggx", {"alpha": 0.09, "k": 6.0})),
         (of("lambertian+sheen"), of("lambertian+ggx", {"ggx.alpha": 0.35})),
+        (of("lambertian+beckmann", {"beckmann.alpha": 0.04}), of("ggx", {"alpha": 0.04, "n": 1.2, "k": 6.0})),
     ],
-    ids=["a highlight's width", "a grain", "a rim of fibres"],
+    ids=["a highlight's width", "a grain", "a rim of fibres", "a body"],
 )
 def test_what_the_first_candidate_has_is_not_given_up_for_a_better_number(first, other):
     taken, made = exporters.held_best("usd", [first, other])

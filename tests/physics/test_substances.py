@@ -96,3 +96,19 @@ def test_another_wavelength_is_refused_in_words(name, wavelength_um, sentence):
     with pytest.raises(InputError) as caught:
         substances.at_wavelength(substances.find(name), wavelength_um)
     assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(
+    "words, kind",
+    [
+        ("oak table", "dielectric"),
+        ("walnut veneer", "dielectric"),
+        ("plywood", "dielectric"),
+        ("denim", "dielectric"),
+        ("satin steel", "metal"),
+        ("brushed stainless", "metal"),
+        ("silver birch", None),
+    ],
+)
+def test_what_things_about_the_house_are_made_of_is_known_by_name(words, kind):
+    assert substances.kind_of_words(words)[0] == kind
