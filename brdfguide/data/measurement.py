@@ -65,7 +65,7 @@ class Measurement(KeepsFormed):
         with np.errstate(invalid="ignore"):
             return np.where((np.abs(self.brdf) < LARGEST) & self.geom.lit, self.brdf, np.nan)
 
-    @cached_property
+    @property
     def stated_errors(self) -> np.ndarray | None:
         """(samples, channels) [1/sr]: standard errors of a size that can be, NaN elsewhere; None where no value that is
         clear of the dark level has one."""

@@ -33,6 +33,7 @@ from .ranked import Ranking, Row
 from .reading import reading
 
 OFF_DEG = 10.0  # from the plane of incidence, beyond which a direction lies outside
+LEAST_SAMPLES = 4
 SAMPLES = 300  # directions in the plane that count
 TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes with the tilt, beyond with its logarithm
 # of the kernel: asinh(tan tilt/TILT), angle from light to half vector [deg], θi + θr [deg], sin θi sin θr cos φ
@@ -82,12 +83,15 @@ class Price:
 
 
 def off_plane_price(ranking: Ranking, measurement: Measurement) -> Price | None:
-    """The price of the recommended law; None for data that leave the plane of incidence."""
-    if not measurement.in_plane or len(measurement.brdf) < 4:
+    """The price of the recommended law; None for data that leave the plane of incidence, and for too few that every
+    law is compared with in every channel."""
+    if not measurement.in_plane or len(measurement.brdf) < LEAST_SAMPLES:
         return None
     there, weights = outside_plane(measurement)
     laws = _laws(ranking)
     known = _Known.of(measurement, laws, there)
+    if len(known.part.brdf) < LEAST_SAMPLES:
+        return None
     said = [known.foretells(row.fit) for row in laws]
     best = next(place for place, row in enumerate(laws) if row is ranking.recommended)
     probable = np.array([known.evidence(each) + _beforehand(row) for each, row in zip(said, laws, strict=True)])

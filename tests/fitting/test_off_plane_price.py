@@ -100,3 +100,10 @@ def test_document_text_and_page_say_the_same_percentage(answer):
     said = f"expect it {block['expected_percent']:.2g} % off"
     assert said in " ".join(off_plane_text(answer.document).split())
     assert said in page.html(answer.document)
+
+
+def test_channels_that_share_no_direction_have_no_price():
+    """Found by the fuzz: there is no value that every law is compared with in all channels."""
+    data = synthetic.surface(GGX, synthetic.scan(step=5.0), TRUTH, channels=3)
+    data.brdf[np.arange(data.brdf.size).reshape(data.brdf.shape) % 2 == 0] = np.nan
+    assert fit(data, ["lambertian+ggx"], timing=False, anyway=True).document["off_plane"] is None

@@ -41,7 +41,7 @@ def read(source: Source, options: Options) -> Measurement:
     theta_i, theta_r, azimuth = (each.reshape(-1) for each in np.meshgrid(THETA, THETA, PHI, indexing="ij"))
     once = ((theta_i > 0) | (azimuth == 0)) & ((theta_r > 0) | (azimuth == 0))
     light, values, notes = turns_of(turned[:, once], -PHI, np.ones(int(once.sum()), bool), options)
-    turns = [each for each in notes if each.code != "sample-rotation"]  # it is the light that turns
+    turns = notes[:1]  # it is the light that turns, and no sample
     phi_i = np.repeat(light, int(once.sum()))
     theta_i, theta_r, azimuth = (np.tile(each[once], len(light)) for each in (theta_i, theta_r, azimuth))
     text = "the level of these tables is relative: their values are not 1/sr"

@@ -12,8 +12,6 @@ from brdfguide.data.formats._lz4 import unpacked
 from brdfguide.errors import InputError
 from brdfguide.physics.geometry import Geometry
 
-from ...conftest import DATA
-
 PAINT = models.get("lambertian+ggx")
 VALUES = {"lambertian.albedo": 0.2, "ggx.alpha": 0.3, "ggx.n": 1.5}
 PHI = np.arange(0.0, 361.0, 10.0)
@@ -144,16 +142,16 @@ def test_a_spectral_speos_file_has_a_channel_for_each_wavelength(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["speos_three_azimuths.anisotropicbsdf", "speos_binary_v9.anisotropicbsdf"])
-def test_speos_own_files_are_reciprocal_once_they_are_scaled_alike(name):
-    measurement = formats.read(DATA / "anisotropic" / name)
+def test_speos_own_files_are_reciprocal_once_they_are_scaled_alike(name, data):
+    measurement = formats.read(data / "anisotropic" / name)
     found = {each.code: each for each in examine.examine(measurement)}
     assert "reciprocal" in found and "a factor of 1 (median)" in found["reciprocal"].text
     assert "the other side is 2.35 times brighter" in codes(measurement)["mirror-side-turned"].text
 
 
-def test_the_binary_file_is_the_text_file():
+def test_the_binary_file_is_the_text_file(data):
     one, other = (
-        formats.read(DATA / "anisotropic" / f"speos_{name}.anisotropicbsdf") for name in ("binary_v9", "three_azimuths")
+        formats.read(data / "anisotropic" / f"speos_{name}.anisotropicbsdf") for name in ("binary_v9", "three_azimuths")
     )
     np.testing.assert_allclose(one.brdf, other.brdf, rtol=1e-14)
     np.testing.assert_array_equal(one.geom.cos_r, other.geom.cos_r)
