@@ -9,7 +9,7 @@ from ..errors import InputError, NoAnswer
 from ..files import taken, write_whole
 from ..models.surface import Surface
 from ..physics import seen
-from ..physics.geometry import Geometry
+from ..physics.geometry import Geometry, rows
 from . import _grained
 from ._choice import GOOD, in_order_for
 from ._nearest import with_the_nearest
@@ -137,7 +137,7 @@ def export_to(
     taken, made = held_best(target, shown, geom, most=most if measured is None else None, stem=path.stem)
     statement = made.statement
     if measured is not None:
-        off = off_the_measurement(statement.shown, taken.colour.matrix, geom, measured)
+        off = off_the_measurement(statement.shown, taken.colour.matrix, rows(geom), measured)
         statement = replace(statement, measured_rms_ln=off)
         _refuse_above(statement, most)
     files = files_of(made, path)

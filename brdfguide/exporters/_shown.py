@@ -9,7 +9,7 @@ import numpy as np
 from ..models.looks import LAMP_SR
 from ..physics import seen
 from ..physics.aperture import Instrument
-from ..physics.geometry import Geometry, rows
+from ..physics.geometry import Geometry
 from .exporter import ColouredSurface
 
 Shown = Callable[[Geometry], np.ndarray]  # -> (samples, 3) [1/sr], NaN where the file has no value
@@ -44,10 +44,10 @@ def seen_of(surface: ColouredSurface, shown: Shown) -> float:
 def off_the_measurement(shown: Shown | None, to_srgb: np.ndarray, geom: Geometry, measured) -> float | None:
     """rms of ln(what is shown / measurement) in linear sRGB, where both are above 0; None for a mirror alone.
 
-    Takes  measured (samples, channels) [1/sr] at `geom`; to_srgb (3, channels).
+    Takes  measured (samples, channels) [1/sr] at `geom`, of one column; to_srgb (3, channels).
     """
     if shown is None:
         return None
-    wanted, found = measured @ to_srgb.T, shown(rows(geom))
+    wanted, found = measured @ to_srgb.T, shown(geom)
     counted = np.isfinite(wanted) & (wanted > 0) & geom.lit & (found > 0)
     return float(np.sqrt(np.mean(np.log(found[counted] / wanted[counted]) ** 2))) if counted.any() else None

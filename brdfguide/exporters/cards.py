@@ -22,7 +22,7 @@ from .. import catalog
 from ..errors import NoAnswer
 from ..models.surface import Surface
 from ..physics.colour import hex_of
-from ..physics.geometry import Geometry
+from ..physics.geometry import Geometry, rows
 from ._choice import GOOD, Choice, in_order_for
 from ._grained import axis_of, tangent_note
 from ._nodes import Node, choose_node, readings, what_it_costs
@@ -95,10 +95,11 @@ def cards(
 
 
 def _thinned(geom: Geometry, measured: np.ndarray) -> tuple[Geometry, np.ndarray]:
-    if len(measured) <= MEASURED:
-        return geom, measured
-    taken = np.linspace(0, len(measured) - 1, MEASURED).round().astype(int)
-    return geom[taken], measured[taken]
+    """As rows, which all programs are evaluated at."""
+    if len(measured) > MEASURED:
+        taken = np.linspace(0, len(measured) - 1, MEASURED).round().astype(int)
+        geom, measured = geom[taken], measured[taken]
+    return rows(geom), measured
 
 
 def _best(make: Callable[[ColouredSurface], Card], surfaces: Sequence[ColouredSurface]) -> Card:
