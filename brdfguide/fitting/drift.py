@@ -76,8 +76,7 @@ def without_drift(measurement: Measurement, drift: Drift) -> Measurement:
     scan = np.argmin(np.abs(measurement.geom.theta_i_deg - drift.theta_i_deg), axis=1)
     gain = np.exp(drift.ln_gains[scan])[:, None]
     stderr = None if measurement.stderr is None else measurement.stderr / gain
-    geom = arm_turned(measurement.geom, drift.zero_deg)
-    return replace(measurement, geom=geom, brdf=measurement.brdf / gain, stderr=stderr)
+    return replace(_turned(measurement, drift.zero_deg), brdf=measurement.brdf / gain, stderr=stderr)
 
 
 def adjusted(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndarray) -> Adjusted | None:

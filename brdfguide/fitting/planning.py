@@ -21,6 +21,7 @@ import numpy as np
 from ..data import subsample
 from ..data.measurement import Measurement
 from ..errors import InputError
+from ..numerics.gaussian_process import gaussian_kernel
 from ..numerics.herding import Groups, representatives
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
@@ -120,7 +121,8 @@ class Everywhere:
         grazing = np.maximum(geom.theta_i_deg, geom.theta_r_deg)
         tilt = np.arcsinh(np.sqrt(geom.tan2_h) / TILT)
         place = np.concatenate([tilt, difference, grazing], axis=1) / np.array(WIDTHS)
-        return _bell(place) + ROUGH * _bell(_vectors(geom) / np.radians(ROUGH_DEG))
+        near = _vectors(geom) / np.radians(ROUGH_DEG)
+        return gaussian_kernel(place, place) + ROUGH * gaussian_kernel(near, near)
 
     def groups(self, numbers: list[np.ndarray], squares: bool) -> Groups:
         """Groups of its directions, by what their union would miss."""
@@ -134,12 +136,6 @@ def _vectors(geom: Geometry) -> np.ndarray:
     turn = np.radians(geom.phi_deg)
     parts = (geom.sin_i, geom.cos_i, geom.sin_r * np.cos(turn), geom.sin_r * np.abs(np.sin(turn)), geom.cos_r)
     return np.concatenate(parts, axis=1)
-
-
-def _bell(place: np.ndarray) -> np.ndarray:
-    """exp(-d²/2) between places (points, dimensions)."""
-    squares = np.sum(place**2, axis=1)
-    return np.exp(-0.5 * np.maximum(squares[:, None] + squares - 2 * place @ place.T, 0.0))
 
 
 def plan_everywhere(

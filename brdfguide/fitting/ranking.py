@@ -167,7 +167,7 @@ def rms_difference(one, best, blocks, sample_weights=None) -> tuple[float, float
     sums = np.bincount(blocks, np.einsum("sc,sc->s", 2 * apart, best - share * apart))
     leverage = np.bincount(blocks, squares) / power
     freedom = max(1 / float(np.sum(leverage**2)) - 1, 1.0)
-    student = 1 + 1.25 / freedom + 1.53 / freedom**2  # t/z at z = 2, to second order
+    student = standard_errors.student_widening(freedom)
     spread = student * np.sqrt(np.sum(sums**2 / np.maximum(1 - leverage, 1e-3))) / count
     return power * (1 + 2 * share) / count / total, float(spread / total)
 

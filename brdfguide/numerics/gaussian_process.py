@@ -29,8 +29,8 @@ class Places:
     @classmethod
     def between(cls, known: np.ndarray, others: np.ndarray) -> "Places":
         """Of places as points (N, d) and (M, d) of which the kernel is exp(-distance²/2)."""
-        strength, vectors = np.linalg.eigh(_gaussian(known, known))
-        return cls(np.maximum(strength, 0.0), vectors, _gaussian(others, known) @ vectors)
+        strength, vectors = np.linalg.eigh(gaussian_kernel(known, known))
+        return cls(np.maximum(strength, 0.0), vectors, gaussian_kernel(others, known) @ vectors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +80,7 @@ def _solved(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     return np.linalg.solve(matrices, vectors[:, :, None])[:, :, 0]
 
 
-def _gaussian(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def gaussian_kernel(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """exp(-distance²/2) between points (N, d) and (M, d), (N, M)."""
     squares = np.sum(one**2, axis=1)[:, None] + np.sum(other**2, axis=1) - 2 * one @ other.T
     return np.exp(-0.5 * np.maximum(squares, 0.0))

@@ -55,8 +55,8 @@ def with_scan_gains(
     variance = (float(np.sum(mean**2 * size)) - noise * left) / left_squared
     if variance <= 0:
         return stderr, 0.0
-    student = 1 + 1.25 / left + 1.53 / left**2  # t/z at z = 2, to second order
-    spread, count = student**2 * variance * np.sum(moved**2, axis=0), len(layout.shared)
+    student, count = standard_errors.student_widening(left), len(layout.shared)
+    spread = student**2 * variance * np.sum(moved**2, axis=0)
     per_channel = spread[count:].reshape(layout.channels, len(layout.per_channel))
     by_gains = standard_errors.in_units(layout, values, spread[:count], per_channel)
     return {key: np.hypot(error, by_gains[key]) for key, error in stderr.items()}, float(np.sqrt(variance))

@@ -118,6 +118,11 @@ def common_channels(residuals: np.ndarray) -> float:
     return float(np.clip(correlation2.sum() / channels - chance, 1.0, channels))
 
 
+def student_widening(freedom: float) -> float:
+    """Student's t over the normal deviate at two standard errors, to second order in 1/freedom."""
+    return 1 + 1.25 / freedom + 1.53 / freedom**2
+
+
 def serial_widening(correlation: float) -> float:
     """How many neighbours in a row say what one says."""
     return (1 + correlation) / (1 - min(correlation, 0.95))
