@@ -8,21 +8,19 @@ part then count alike.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import exp, expm1
 
 import numpy as np
 
 from .. import catalog
 from ..models.model import Model, Parameter
-from ..physics import grain, microfacet
 from ..physics.geometry import Geometry, rows
 from . import _grained
-from ._choice import GOOD, ONE_LOBE, Choice, best_of, choose, fresnel_index, has_body, what_is_lost
+from ._choice import Choice, best_of, choose, fresnel_index, has_body
 from ._directions import judged_over, rms_ln
 from ._mirrored import BesideMirror, mirror_at, stacked
 from ._refit import Goal, TargetModel
 from ._smooth import MIRROR, is_smooth
-from .exporter import ColouredSurface, Statement, glint
+from .exporter import ColouredSurface
 
 METAL_STARTS = (0.1, 0.5, 0.9)
 ALIKE = 0.2  # rms ln within which a polished base is taken before a coat over a base
@@ -66,7 +64,7 @@ class Node:
     def target(self, free: tuple[str, ...], **fixed) -> TargetModel:
         """The law with some numbers free and the rest at `fixed` and its defaults."""
         held = {**self.law.defaults(), **fixed}
-        parameters = tuple(self._parameter(name, fixed) for name in free)
+        parameters = tuple(self._parameter(name, free, fixed) for name in free)
         held = {name: value for name, value in held.items() if name not in free}
         return TargetModel(parameters, partial(self.law, **held), held, broadcasts=True)
 
@@ -75,7 +73,7 @@ class Node:
         always = ("base_color", self.metalness, self.roughness, self.index)
         return name in always or bool(np.any(np.ravel(value) != self.law.parameter(name).default))
 
-    def _parameter(self, name: str, fixed: Mapping) -> Parameter:
+    def _parameter(self, name: str, free: tuple[str, ...], fixed: Mapping) -> Parameter:
         p = self.law.parameter(name)
         if name == self.coat_roughness and self.coat_mirror == 0:  # a mirror has no lobe to judge by
             return replace(p, low=0.04, log=True, starts=(0.1, 0.3, 0.6))
@@ -85,17 +83,20 @@ class Node:
             return replace(p, high=min(p.high, MOST_GRAIN), starts=(0.2, 0.6, 0.9))
         if name != "base_color":
             return replace(p, starts=p.starts or (0.1, 0.5, 1.0)[: 2 + (p.high <= 1)])
-        if fixed.get(self.metalness):
+        if fixed.get(self.metalness) or self.metalness in free:
             return replace(p, low=1e-3, log=True, starts=METAL_STARTS)
         return replace(p, linear=True)
 
     def ordinary(self, body: bool, kind: str = "") -> dict[str, TargetModel]:
-        """Matt or with a lobe over a body; metal or bare dielectric without one, which often look alike."""
+        """Matt or with a lobe over a body, which is in part a metal's where no dielectric shines so; metal or bare
+        dielectric without one, which often look alike."""
         metal = {self.metalness: 1.0}
         edge = (self.edge,) if self.edge else ()
         dielectric = ("base_color", self.roughness, self.index, *self._free_weight())
         if body:
-            return {"matt": self.target(("base_color",), **self.matt), "dielectric": self.target(dielectric)}
+            matt, lobe = self.target(("base_color",), **self.matt), self.target(dielectric)
+            in_part = {"metal in part": self.target(("base_color", self.metalness, self.roughness))}
+            return {"matt": matt, **({} if kind == "dielectric" else in_part), "dielectric": lobe}
         targets = {
             "metal": self.target(("base_color", *edge, self.roughness), **metal),
             "dielectric": self.target(dielectric[1:], base_color=0.0),
@@ -221,7 +222,7 @@ def _of_its_kind(targets: dict[str, TargetModel], kind: str) -> dict[str, Target
 
 def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> Choice:
     """The best of the node's settings for a surface, with its numbers rounded as they will be written."""
-    own = _own_values(node, surface)
+    own = own_values(node, surface)
     body = has_body(surface)
     if own is not None:
         own_target = {"own": node.target((), **own)}
@@ -245,53 +246,7 @@ def choose_node(node: Node, surface: ColouredSurface, geom: Geometry | None) -> 
     return choose(surface, geom, node.ordinary(body, _kind(surface)) | coated)
 
 
-def what_it_costs(node: Node, surface: ColouredSurface, choice: Choice) -> tuple[str, ...]:
-    """Sentences for what the shader cannot hold, and for what it lacks where the numbers are off by more than GOOD."""
-    if _own_values(node, surface) is not None:
-        return ()
-    lacks = () if choice.rms_ln <= GOOD else (_lacks(node, surface, choice),)
-    if not node.grain and _grained.axis_of(surface) is not None:
-        lacks = ("the surface has a grain, and this shader none: its lobe is a mean over all turns",)
-    if is_smooth(surface):
-        return lacks
-    lost = what_is_lost(surface)
-    if np.any(choice.values.get(node.coat, 0.0)):  # one lobe is the coat's
-        lost = tuple(each for each in lost if not each.endswith(ONE_LOBE))
-    return (() if surface.has_mirror else glint(surface)) + lost + lacks
-
-
-def _lacks(node: Node, surface: ColouredSurface, choice: Choice) -> str:
-    """Why the best numbers are far off, and how far where light and eye stand high."""
-    kinds = [term.model for term in surface.model.terms]
-    body = any(kind.is_body for kind in kinds) or has_body(surface) and kinds[0].settings
-    if any(kind.is_coat for kind in kinds) and len(kinds) > 1:
-        why = node.lacks["coat"]
-    elif surface.has_mirror and not any(kind.is_mirror for kind in kinds):
-        why = "the mirror image of a rough surface becomes a coat's, which does not fade as waves fade it"
-    elif body and "body" in node.lacks:
-        why = node.lacks["body"]
-    elif not body and surface.has_mirror and len(kinds) > 1 and "lobe" in node.lacks:
-        why = node.lacks["lobe"]
-    elif node.masked_alike and _grained.axis_of(surface) is not None:
-        why = "it masks light and view with one width, whichever way they stand"
-    elif node.by_schlick:
-        why = "F is Schlick's curve, which lies below Fresnel's between 40 and 80 degrees"
-    else:
-        why = "its lobe is GGX's, and this one has another shape"
-    high = _off_up_to(HIGH_DEG, surface, choice)
-    return why if high is None else f"{why}; up to {HIGH_DEG:g} degrees {_off(high)} off"
-
-
-def _off_up_to(most_deg: float, surface: ColouredSurface, choice: Choice) -> float | None:
-    """rms ln of the finite part where neither light nor eye stands lower; None where there is none."""
-    if choice.brdf is None or is_smooth(surface):
-        return None
-    geom, wanted, _ = judged_over(surface, None)
-    high = (geom.theta_i_deg <= most_deg) & (geom.theta_r_deg <= most_deg)
-    return rms_ln(choice.brdf(geom), np.where(high, wanted, np.nan))
-
-
-def _own_values(node: Node, surface: ColouredSurface) -> dict | None:
+def own_values(node: Node, surface: ColouredSurface) -> dict | None:
     """Its values by colour, of a surface of the node's own law; else None."""
     if [term.model.brdf for term in surface.model.terms] != [node.law.brdf]:
         return None
@@ -339,58 +294,3 @@ def _with_mirror(
 
 def _law_at(law: Model, values: Mapping, geom: Geometry) -> np.ndarray:
     return law(geom, **values)
-
-
-def readings(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometry | None) -> tuple[str, ...]:
-    """What the same numbers cost in programs that read the shader's text in another published way."""
-    if choice.brdf is None or not node.law.readings:
-        return ()
-    geom, wanted, _ = judged_over(surface, geom)
-    found = []
-    for words, law in node.law.readings.items():
-        other: Callable = replace(node.law, brdf=law)
-        error = rms_ln(other(geom, **{**node.law.defaults(), **choice.values}), wanted)
-        found.append(f"as MaterialX's nodes evaluate it; with {words}, as other programs have it, {_off(error)} off")
-    return tuple(found)
-
-
-def _one_width(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometry | None) -> tuple[str, ...]:
-    """What MaterialX's masking, which has one width for light and view, makes of a metal with a grain."""
-    values = {**node.law.defaults(), **choice.values}
-    if node.widths is None or not np.all(values[node.metalness]) or np.any(values[node.coat]):
-        return ()
-    geom, wanted, _ = judged_over(surface, geom)
-    wide, narrow = node.widths(values[node.roughness], values[node.grain])
-    alpha = np.sqrt(wide * narrow)
-    alike = microfacet.ggx_shape(geom, alpha) / microfacet.ggx(geom, alpha)
-    apart = grain.grained_shape(geom, wide, narrow, values["axis"]) / grain.grained_density(
-        geom, wide, narrow, values["axis"]
-    )
-    error = rms_ln(node.law(geom, **values) * alike / apart, wanted)
-    return (f"MaterialX masks light and view with one width, √(across along), however they stand: {_off(error)} off",)
-
-
-def _streak(node: Node, axis: float) -> tuple[str, ...]:
-    """Where the streak lies, and what turns the tangent."""
-    if not node.grain:
-        return ()
-    by = "nodes of the file turn" if node.law.name == "openpbr" else "its own rotation turns"
-    turned = f"{np.degrees(axis) % 180:.3g} degrees counter-clockwise from the mesh's"
-    return (f"the streak lies along the tangent that {by}, {turned}; the grooves run across it",)
-
-
-def node_statement(
-    node: Node, target: str, surface: ColouredSurface, geom: Geometry | None
-) -> tuple[Choice, Statement]:
-    """The numbers of the node and their Statement."""
-    choice = choose_node(node, surface, geom)
-    axis = _grained.axis_of(surface)
-    notes = readings(node, choice, surface, geom)
-    if axis is not None:
-        notes += _one_width(node, choice, surface, geom) + _streak(node, axis)
-    return choice, choice.statement(target, surface, lost=what_it_costs(node, surface, choice), notes=notes)
-
-
-def _off(error: float) -> str:
-    """An rms of ln as people say it."""
-    return f"{100 * expm1(error):.2g} %" if error < 0.6 else f"a factor {exp(min(error, 20.0)):.2g}"

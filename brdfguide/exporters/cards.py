@@ -25,7 +25,8 @@ from ..physics.colour import hex_of
 from ..physics.geometry import Geometry, rows
 from ._choice import GOOD, Choice, in_order_for
 from ._grained import axis_of, tangent_note
-from ._nodes import Node, choose_node, readings, what_it_costs
+from ._node_words import readings, what_it_costs
+from ._nodes import Node, choose_node
 from ._programs import PROGRAMS, Program, typed_numbers
 from ._shown import Shown, off_the_measurement
 from .exporter import ColouredSurface, coloured

@@ -28,7 +28,8 @@ from ..models.surface import Surface
 from ..physics.fresnel import f0, index_from_f0
 from . import _blender, _principled, _substance, _unreal
 from ._law_fit import nearest_of_law
-from ._nodes import choose_node, what_it_costs
+from ._node_words import what_it_costs
+from ._nodes import choose_node
 from ._programs import PROGRAMS, Program, as_words, node_of
 from ._shown import seen_of
 from .exporter import ColouredSurface, coloured

@@ -9,7 +9,7 @@ import json
 from ..physics.geometry import Geometry
 from ..printable import MOST_OF_A_COMMENT, short
 from ._gltf import NODE
-from ._nodes import node_statement
+from ._node_words import node_statement
 from .exporter import ColouredSurface, Export, Exporter, comment_lines, number, rgb_numbers
 
 

@@ -22,7 +22,7 @@ from ..physics.geometry import Geometry
 from ..physics.shader_optics import albedo_terms, compensation, directional_albedo, schlick
 from ._gltf import NODE as GLTF
 from ._materialx import colour3, float_value, materialx_document, shader
-from ._nodes import node_statement
+from ._node_words import node_statement
 from .exporter import ColouredSurface, Export, Exporter
 
 COAT_INDEX = 1.5

@@ -11,7 +11,8 @@ from ..models.openpbr import widths
 from ..physics.geometry import Geometry
 from ..printable import identifier
 from ._materialx import colour3, float_value, materialx_document, shader, turned_tangent
-from ._nodes import Node, node_statement
+from ._node_words import node_statement
+from ._nodes import Node
 from .exporter import ColouredSurface, Export, Exporter
 
 LAW = term("openpbr")

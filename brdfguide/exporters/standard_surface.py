@@ -10,7 +10,8 @@ from ..models import term
 from ..models.standard_surface import widths
 from ..physics.geometry import Geometry
 from ._materialx import colour3, float_value, materialx_document, shader
-from ._nodes import Node, node_statement
+from ._node_words import node_statement
+from ._nodes import Node
 from .exporter import ColouredSurface, Export, Exporter
 
 LAW = term("standard-surface")

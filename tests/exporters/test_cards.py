@@ -105,6 +105,14 @@ def test_something_clear_is_no_metal():
     ]
 
 
+def test_a_body_under_more_than_any_dielectric_reflects_is_typed_as_a_metal():
+    """Without a kind a metal is fitted as a body under a lobe of high index; no program has such an index."""
+    law = {"lambertian.albedo": 0.03, "ggx.n": 40.0, "ggx.alpha": 0.2}
+    found = by_program("lambertian+ggx", law, "Blender", "glTF, three.js", "Mitsuba")
+    assert all(each.rms_ln < 0.25 and each.numbers.get("Metallic", 1.0) > 0.9 for each in found.values())
+    assert found["glTF, three.js"].numbers["metallic"] > 0.8
+
+
 def test_every_number_has_its_role_in_every_program():
     """Only what no other program has stands without one."""
     grained = by_program("ggx-aniso", {"n": 1.2, "k": 6.0, "alpha_x": 0.3, "alpha_y": 0.1, "axis": 30.0})

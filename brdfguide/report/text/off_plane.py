@@ -1,6 +1,7 @@
 """What data in the plane of incidence cost, and which term the law lacks, in words."""
 
 from .folding import folded
+from .values import off_words
 
 SHOWN = 2  # laws that part outside the plane
 
@@ -18,16 +19,15 @@ def off_plane_sentences(document: dict) -> list[str]:
 def _price(price: dict | None):
     if not price:
         return
-    said = (
-        f"outside the plane of incidence, where nothing was measured, expect it {price['expected_percent']:.2g} % off"
-    )
+    expected = off_words(price["expected_percent"])
+    said = f"outside the plane of incidence, where nothing was measured, expect it {expected} off"
     yield f"{said}; `brdfguide plan --after` says which directions tell"
     for each in price["apart"][:SHOWN]:
         at = each["at"][0]
         place = f"theta_i {at['theta_i_deg']:g}, theta_r {at['theta_r_deg']:g}, phi {at['phi_deg']:g} deg"
         how = "ties with it in the plane" if each["ties"] else "may as well be right"
         said = f"{each['candidate']} {how} and parts from it outside, most at {place}"
-        yield f"{said}: {each['then_percent']:.2g} % off if that one is right"
+        yield f"{said}: {off_words(each['then_percent'])} off if that one is right"
 
 
 def _missing(term: dict | None):
