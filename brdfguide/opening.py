@@ -5,11 +5,11 @@ import stat
 import sys
 import time
 from contextlib import contextmanager
-from dataclasses import dataclass
 from io import BufferedReader, BytesIO, FileIO, RawIOBase
 from pathlib import Path
 
 from .errors import InputError, no_such_file
+from .records import dataclass
 
 WAITED_S = 5.0  # for a pipe's other end; a shell opens both at once
 PIECE = 2**20

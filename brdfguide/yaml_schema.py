@@ -8,13 +8,14 @@ an error. Anchors, aliases, tags, deep nesting and large files are refused befor
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import yaml
 
 from . import opening
 from .errors import InputError, nearest_words
 from .printable import short
+from .records import dataclass
 
 MOST_BYTES = 65536  # ours: the largest sensible description is a few kilobytes
 MOST_DEPTH = 12

@@ -4,11 +4,12 @@
 stated under `doubts`, else the usual one of such a reading (`USUAL`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import atan, cos, degrees, hypot, log, radians, sqrt
 
 from ..physics import emergence, gloss
 from ..physics.fresnel import fresnel
+from ..records import dataclass
 from .material import Material
 from .profile import height_of, length_of
 

@@ -6,12 +6,13 @@ set aside and named; where several would do, the least direct.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from math import inf, log, sqrt
 
 import numpy as np
 
+from ..records import dataclass
 from .evidence import Evidence, Observation
 from .laws import BARE_SIGMA_UM, FAMILIES, Cells, Family, SeenBy
 from .posterior import (

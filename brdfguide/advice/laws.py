@@ -5,7 +5,6 @@ arrays of these numbers, and gives the reading as an `Observation` counts it; No
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from math import log, pi, radians, sin, sqrt
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from ..numerics.special import erfcx, lambert_w
 from ..physics import emergence, gloss
+from ..records import dataclass
 from .evidence import Evidence, Observation
 from .wave_gloss import SIGMA_UM, WAVELENGTH_UM, mirror_share, wave_share
 

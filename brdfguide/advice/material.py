@@ -6,12 +6,13 @@ which cannot overwrite.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from math import pi, radians
 from typing import Any
 
 from ..physics.picked_colour import of_hex
 from ..physics.roughness_senses import SENSES, USUAL, alpha_of
+from ..records import dataclass
 from ..yaml_schema import Document, parse, read, written
 from .observed_fields import FIELDS, OBSERVATIONS, PATCHES
 from .profile import HEIGHTS, band_of, height_of, length_of, with_spectrum

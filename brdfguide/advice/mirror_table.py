@@ -8,7 +8,7 @@ surface smoother toward grazing, and how much tells the slope.
 """
 
 import csv
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from io import StringIO
 from math import isfinite
 
@@ -16,6 +16,7 @@ from .. import opening
 from ..errors import InputError
 from ..physics import emergence
 from ..physics.colour import SRGB_UM
+from ..records import dataclass
 from .evidence import Evidence, Observation, dimming_doubt
 from .inference import Inference, infer
 

@@ -8,7 +8,6 @@ them (twice corrected). Nothing is drawn at random: the same description gives t
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import cos, hypot, log, radians
 
@@ -16,6 +15,7 @@ import numpy as np
 
 from ..physics import gloss
 from ..physics.fresnel import fresnel
+from ..records import dataclass
 from .evidence import Evidence, Observation
 from .laws import Axis, Cells, Family, SeenBy
 

@@ -5,7 +5,6 @@ where the description is read: under `stylus.spectrum` then stand the height, th
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import cos, erf, log1p, pi, radians, sqrt
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from ..errors import InputError
 from ..opening import exists, is_plain
 from ..physics import profile_numbers
 from ..physics.emergence import WAVELENGTH
+from ..records import dataclass
 from ..yaml_schema import Document
 
 # keys of a height, the most direct first -> rms height over it

@@ -5,12 +5,12 @@ else, and every error, is left to it; both ways end in the same functions, and a
 """
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 
 from .. import printable
 from ..errors import InputError
 from ..opening import exists
+from ..records import dataclass
 from ._streams import say, whisper
 
 SWITCHES = {"--json", "--no-timing", "--explain", "--full", "--quiet", "-q", "--anyway", "--no-numbers"}

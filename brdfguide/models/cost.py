@@ -7,12 +7,12 @@ because whatever else a machine does can only add to it. Directions are fresh ea
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 Key = TypeVar("Key")
 

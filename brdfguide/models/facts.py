@@ -3,8 +3,10 @@ its parameters begin with, how shaders write it.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import pi
+
+from ..records import dataclass
 
 MIRROR_DEG = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0)  # where the growth of a described lobe is given
 

@@ -1,12 +1,13 @@
 """How a surface looks on a sphere under lamps all around, and how far two of them lie apart in S (`physics.seen`)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..physics import seen
 from ..physics.aperture import Instrument, solid_angle_of
+from ..records import dataclass
 from .surface import Surface
 
 # of the lamp that a mirror shows where no detector is named: 2.7 degrees across. Ours, and such that the cells follow

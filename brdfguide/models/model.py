@@ -5,13 +5,14 @@ amplitudes are solved for and never searched for.
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property, partial
 
 import numpy as np
 
 from ..errors import InputError, choices
 from ..physics.geometry import WAVELENGTH_UM, Geometry, in_plane
+from ..records import dataclass
 from .facts import Candidacy, Facets, Formula, Grain, Setting
 
 

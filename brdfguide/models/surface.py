@@ -1,7 +1,7 @@
 """A surface: a model with values for it, and the channels that these belong to."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import InputError
 from ..physics.colour import SRGB_UM
 from ..physics.geometry import WAVELENGTH_UM, Geometry
+from ..records import dataclass
 from . import get
 from .model import Composite, Term
 

@@ -5,13 +5,14 @@ the centre with weight 1/4 and six points at √(2/3) of the radius with 1/8 eac
 about the width of the cone; what is narrower is a mirror to this instrument.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import cos, pi, sin, sqrt
 
 import numpy as np
 
 from ..errors import InputError
+from ..records import dataclass
 from .geometry import Directions, Geometry
 
 RING = sqrt(2 / 3)

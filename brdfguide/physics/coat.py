@@ -8,11 +8,11 @@ bright for n = 1.5. K is the share of diffuse light from below that the coat's s
 Source: Fresnel; Saunderson 1942.
 """
 
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
 
+from ..records import dataclass
 from . import fresnel
 from .directions import Directions
 from .geometry import Geometry

@@ -16,11 +16,10 @@ Sources: IEC 61966-2-1 (sRGB); ITU-R BT.709; CIE 1931 as carried by colour-scien
 analytic approximations to the CIE XYZ color matching functions", JCGT 2(2), multi-lobe fit (Eq. 4).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import NoAnswer
+from ..records import dataclass
 from .substance_table import READ_AT_UM
 
 # [µm], of a measured channel with this name; X, Y, Z: the peaks of the CIE 1931 colour matching functions

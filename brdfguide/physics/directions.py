@@ -11,12 +11,13 @@ None of it knows a wavelength, so that what a law forms from it serves every cha
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from functools import cached_property
 
 import numpy as np
 
 from ..formed import KeepsFormed
+from ..records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,12 +6,12 @@
 Colours are compared by ΔE_ITP of ITU-R BT.2124, where 1 is just noticeable too.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import log
 
 import numpy as np
 
+from ..records import dataclass
 from . import colour
 
 # ITU-R BT.2087

@@ -9,12 +9,12 @@ The coefficients are series in a share of the width themselves, printed by bench
 Source: the integral by quadrature over the hemisphere, ours; at the normal and alpha 1 it is ln 2.
 """
 
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ..numerics import chebyshev
+from ..records import dataclass
 
 NARROWEST = 0.01  # alpha, the least in the table
 WIDEST = 1.5  # alpha, the greatest

@@ -4,7 +4,7 @@ Directions stand in rows, channels in columns: a data set has angles of shape (s
 wavelengths of shape (channels,), and a law simply broadcasts.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
+from ..records import dataclass
 from .directions import FIELDS, Directions
 
 WAVELENGTH_UM = 0.55  # where nothing else is said, as in the report

@@ -9,12 +9,12 @@ For a Gaussian lobe the receptor's share has a closed form, good at 20Â° and 60Â
 (`closed_form`); the answers here are integrated.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import cos, erf, exp, log, radians
 
 import numpy as np
 
+from ..records import dataclass
 from . import microfacet
 from .fresnel import fresnel
 from .geometry import Geometry, rows

@@ -10,7 +10,6 @@ takes in every wave that crosses it slowly, however short. Height in a band need
 Source: Church, Takacs and Leonard 1989, "The prediction of BRDFs from surface profile measurements"; ISO 10110-8.
 """
 
-from dataclasses import dataclass
 from functools import cache, cached_property
 from math import pi
 from typing import Protocol
@@ -19,6 +18,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numerics.special import ln_gamma
+from ..records import dataclass
 
 NODES = 12  # of Gauss' rule on a panel
 PANEL = 0.5  # of ln ν, over which a spectrum is a polynomial to 1e-12

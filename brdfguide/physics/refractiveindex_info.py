@@ -2,12 +2,12 @@
 
 import re
 from array import array
-from dataclasses import dataclass
 from functools import lru_cache
 from importlib.util import find_spec
 from math import sqrt
 
 from ..errors import InputError
+from ..records import dataclass
 from .substances import Substance
 
 

@@ -15,8 +15,9 @@ Source: Burley 2012; the pbrt-v4 documentation; Walter et al. 2007; Ward 1992.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf, log, sqrt
+
+from ..records import dataclass
 
 AS_WIDE = sqrt(log(2)) / sqrt(sqrt(2) - 1)  # GGX's alpha over Ward's, for lobes that are as wide at half their height
 

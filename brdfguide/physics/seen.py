@@ -11,12 +11,13 @@ Bands and words come from what people said of 458 pictures of five models (Lavou
 agrees with them and where it does not. It is no promise for another light.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from math import pi
 
 import numpy as np
 
+from ..records import dataclass
 from . import colour
 from .directions import Directions
 from .display import colour_weights

@@ -4,7 +4,7 @@ The report's Table 1 with the wavelength of each row, the coloured metals that b
 spectrum, and common dielectrics; what things about the house are made of stands in `more_substances`.
 """
 
-from dataclasses import dataclass
+from ..records import dataclass
 
 READ_AT_UM = (0.65, 0.55, 0.45)  # where the tables of coloured metals were read; see `colour.SRGB_UM`
 JC72 = "Johnson and Christy 1972, Phys. Rev. B 6, 4370, interpolated at 650, 550, 450 nm"

@@ -4,10 +4,11 @@
 are available, measured before guessed. A rule that does not apply is silent; none evaluates a BRDF.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 from ... import catalog
+from ...records import dataclass
 from ..material import Material
 from .guideline import Advice, Rule
 

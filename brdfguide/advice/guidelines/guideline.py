@@ -1,9 +1,10 @@
 """What a guideline is: a pure function from a Material to one Advice, or to None where it has nothing to say."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Protocol, cast
 
+from ...records import dataclass
 from ..material import Material
 
 
