@@ -3,7 +3,6 @@
 Lobes of different laws are given one peak near the normal, F0/(4π alpha²), and one width (models/facts.py).
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import atan, sqrt, tan
 
@@ -13,7 +12,8 @@ from ..models import Composite, Model
 from ..models.facts import MIRROR_DEG, Facets
 from ..models.surface import Surface
 from ..physics import coat, fresnel
-from ..physics.geometry import in_plane, rows
+from ..physics.geometry import Geometry, in_plane, rows
+from ..records import dataclass
 from .material import Material
 
 # silver metallic paint fitted by Ward's law: 0.185 and 0.225 (Ngan et al. 2005)
@@ -27,6 +27,7 @@ GRAIN = 4.0  # width across a grain over that along it: brushed metals have 2 to
 RETRO_SHARE = 0.3
 RETRO_ALPHA = 0.0185
 WATER_N = 1.33
+GROWTH_DEG = (10, 75)  # of the light, between which growth is told
 STEEP_SLOPE = 0.3  # sigma/tau from which bumps strain the theory (Westin et al. 2004, section 5.2)
 # for a high gloss of unknown sigma: 37 % of the mirror image is lost at normal incidence, none at grazing
 MIRROR_SIGMA_UM = 0.03
@@ -185,11 +186,11 @@ def _within(parameter, given):
 
 def grazing_growth(surface: Surface) -> Rise:
     """The growth from 10 to 75 degrees, in the middle channel."""
-    middle = surface.middle
-    scans = [middle.brdf(_scan(angle))[:, 0] for angle in (10.0, 75.0)]
-    at = [float(scan[angle]) for scan, angle in zip(scans, (10, 75), strict=True)]
+    middle, geom = surface.middle, scans_of_growth()
+    scans = np.reshape(middle.brdf(geom), (len(GROWTH_DEG), -1))
+    at = [float(scan[angle]) for scan, angle in zip(scans, GROWTH_DEG, strict=True)]
     top = [float(scan.max()) for scan in scans]
-    spike = [float(middle.mirror(_scan(angle))[0, 0]) for angle in (10.0, 75.0)]
+    spike = [float(each) for each in middle.mirror(geom[:: scans.shape[1]])[:, 0]]
 
     def ratio(pair):
         return pair[1] / pair[0] if pair[0] > 1e-12 else None
@@ -197,7 +198,7 @@ def grazing_growth(surface: Surface) -> Rise:
     return Rise(ratio(at), ratio(top), ratio(spike))
 
 
-@lru_cache(maxsize=2)
-def _scan(theta_i: float):
-    """The mirror side of the plane of incidence, one value a degree."""
-    return rows(in_plane(theta_i, np.arange(0.0, 90.0)))
+@lru_cache(maxsize=1)
+def scans_of_growth() -> Geometry:
+    """The mirror side of the plane of incidence under each of GROWTH_DEG, one value a degree, below one another."""
+    return rows(in_plane(np.repeat(GROWTH_DEG, 90), np.tile(np.arange(0.0, 90.0), len(GROWTH_DEG))))
