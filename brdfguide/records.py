@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
 
-    def dataclass(*, frozen=False, eq=True, repr=True, kw_only=False):
+    def dataclass(cls=None, /, *, frozen=False, eq=True, repr=True, kw_only=False):
         """As `dataclasses.dataclass` with these keywords."""
 
         def made(cls):
@@ -34,7 +34,7 @@ else:
                     setattr(cls, name, value)
             return cls
 
-        return made
+        return made if cls is None else made(cls)
 
 
 def _is_frozen(cls: type) -> bool:

@@ -104,6 +104,18 @@ def test_a_record_is_pickled():
     assert pickle.loads(pickle.dumps(Kept(1.5))) == Kept(1.5)
 
 
+def test_a_record_needs_no_keywords():
+    @records.dataclass
+    class Open:
+        """A record that changes."""
+
+        value: float = 1.0
+
+    one = Open()
+    one.value = 2.0
+    assert one == Open(2.0) and Open.__hash__ is None
+
+
 def test_nothing_is_compiled_before_the_first_object_is_made():
     ours = made_by(records.dataclass, frozen=True)
     assert not callable(vars(ours)["__init__"])

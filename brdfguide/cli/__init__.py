@@ -19,6 +19,7 @@ def main(argv: list[str] | None = None) -> None:
         from ._fast import answered
     except KeyboardInterrupt:
         sys.exit(130)
+    alone = argv is None  # nothing runs after it in this process
     argv = sys.argv[1:] if argv is None else argv
     _streams.prepare_streams()
     status: int | str | None = 0
@@ -36,6 +37,8 @@ def main(argv: list[str] | None = None) -> None:
     except OSError as error:
         status = _streams.failed(error)
     _heard()
+    if alone:
+        gc.freeze()  # the interpreter looks through all that is left before it ends, though nothing is kept
     sys.exit(_streams.closed(status))
 
 
