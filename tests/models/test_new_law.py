@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -217,3 +218,10 @@ def test_one_that_asks_for_nothing_is_fitted_only_where_it_is_named(quiet):
     assert f"tried where it is named: -m {NAME}" in shown and "states no formula for shaders" in shown
     assert not any(NAME in each for each in ranked(default))
     assert ranked(named) == [f"lambertian+{NAME}"]
+
+
+def test_a_parameter_called_k_is_no_index_of_absorption(tmp_path):
+    law = house(tmp_path, "None", "None") / "brdfguide" / "models" / "half_phong.py"
+    law.write_text(re.sub(r"\bexponent\b", "k", law.read_text()))
+    (text,) = answered(tmp_path, ["fit", PLASTIC, "-m", f"lambertian+{NAME}", "--json", "--no-timing", "--quiet"])
+    assert ranked(text) == [f"lambertian+{NAME}"]

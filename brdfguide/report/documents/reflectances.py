@@ -20,7 +20,8 @@ def reflectances(fit: Fit, measurement: Measurement) -> dict:
     """F0 of each lobe of which k was fitted, with its standard error, in place of k; where n was fitted as well also F
     at 82 degrees, in place of n, and both beside n and k where the data tell these apart."""
     out: dict[str, dict] = {}
-    for key in (key for key, error in fit.stderr.items() if key.endswith(".k") and error is not None):
+    absorbing = {term.key("k") for term in fit.model.terms if term.model.has_index}  # another law's k is no index
+    for key in (key for key, error in fit.stderr.items() if key in absorbing and error is not None):
         label = key.removesuffix(".k")
         n, k = (np.asarray(fit.values[f"{label}.{name}"], float) for name in "nk")
         if has_edge(fit.model):
