@@ -14,8 +14,9 @@ from ..models import Composite
 from ..models.visible_change import begins_to_show
 from . import cross_validation, describable, growing, ranking
 from . import fit as fitting
-from .fit import FitOptions, Prepared, Search
+from .prepared import Prepared
 from .ranked import Ranking, Step
+from .search import FitOptions, Search, free_count
 
 
 def compare(
@@ -68,7 +69,7 @@ def _determined(
     Raises NoAnswer where there are none, and where of several with a lobe there are none.
     """
     values = int(np.count_nonzero(measurement.weighed))
-    free = [fitting.free_count(model, len(measurement.channels), options) for model in candidates]
+    free = [free_count(model, len(measurement.channels), options) for model in candidates]
     known = tuple(model for model, count in zip(candidates, free, strict=True) if count < values)
     if len(known) == len(candidates):
         return known, ()

@@ -1,6 +1,6 @@
 """How a fitted model behaves where it was not fitted: left-out angles and turns, toward grazing, imitated spikes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -19,7 +19,7 @@ from ..physics.geometry import Geometry, in_plane, rows
 from . import starting_grid
 from .choosing import recommending
 from .fit import Fit, FitOptions
-from .followed import follow
+from .followed import End, Following, follow
 from .layout import Layout
 from .objective import Misfit, metric
 from .prepared import few_channels
@@ -34,26 +34,33 @@ MOST_GROWN = 88.0  # degrees of incidence; nothing is compared at the horizon it
 IMITATION = 2.5  # held-out error over fitted error beyond which a model is said to imitate (ours)
 
 
-def held_out(fit: Fit, used: Measurement, options: FitOptions = FitOptions()) -> HeldOut | None:
-    """Refits without each group of incidence angles and predicts it; None with fewer than two groups that can be told.
+def held_out(fits: Sequence[Fit], used: Measurement, options: FitOptions = FitOptions()) -> list[HeldOut | None]:
+    """Refits each without each group of incidence angles and predicts it; None with fewer than two groups that can be
+    told.
 
     A group none of whose values is clear of the dark level has no error on a scale of ratios: it helps to fit the
-    others and is not held out itself. `used` is what `thinned` leaves of the measurement that the fit was made to.
+    others and is not held out itself. `used` is what `thinned` leaves of the measurement that the fits were made to.
     """
-    return held_out_from(fit.model, thinned_surface(fit).values, used, options)
+    return held_out_from([(fit.model, thinned_surface(fit).values) for fit in fits], used, options)
 
 
 def held_out_from(
-    model: Composite, values: Mapping, used: Measurement, options: FitOptions = FitOptions()
-) -> HeldOut | None:
-    """The same of a model that was fitted to all of `used` with these values."""
+    models: Sequence[tuple[Composite, Mapping]], used: Measurement, options: FitOptions = FitOptions()
+) -> list[HeldOut | None]:
+    """The same of models that were fitted to all of `used` with these values."""
     if not can_hold_out(used):
-        return None
+        return [None] * len(models)
     folds = _divided(used)
-    layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
-    misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
-    kept = np.array([fold.kept for fold in folds])
-    ends = follow(misfit, [layout.encode(values)] * len(folds), 1e-4, 20, kept)
+    kept, followings = np.array([fold.kept for fold in folds]), []
+    for model, values in models:
+        layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
+        misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
+        followings.append(Following(misfit, [layout.encode(values)] * len(folds), kept))
+    found = follow(followings, 1e-4, 20)
+    return [_held_out(each.misfit.layout, ends, folds) for each, ends in zip(followings, found, strict=True)]
+
+
+def _held_out(layout: Layout, ends: list[End], folds: list["_Fold"]) -> HeldOut:
     squares, counts, last = 0.0, 0, np.nan
     for end, fold in zip(ends, folds, strict=True):
         inside = fold.inside
@@ -224,11 +231,13 @@ def validated(
     ranking: Ranking, measurement: Measurement, options: FitOptions = FitOptions(), progress=lambda name: None
 ) -> Ranking:
     """The same ranking with growth, held-out errors of what was refined, and a warning for models that imitate."""
-    few, helds, alone = thinned(measurement), [], not scans.independent(measurement)
+    few, alone, refined = thinned(measurement), not scans.independent(measurement), []
     for row in ranking.rows:
-        progress(row.fit.name)
-        unrefined = alone or any(warning.effect is Effect.UNREFINED for warning in row.fit.warnings)
-        helds.append(None if unrefined else held_out(row.fit, few, options))
+        if not (alone or any(warning.effect is Effect.UNREFINED for warning in row.fit.warnings)):
+            progress(row.fit.name)
+            refined.append(row.fit)
+    found = dict(zip(map(id, refined), held_out(refined, few, options), strict=True))
+    helds = [found.get(id(row.fit)) for row in ranking.rows]
     single = min(
         (held.rms_ln for row, held in zip(ranking.rows, helds, strict=True) if held and _lobes(row.fit) < 2),
         default=np.inf,

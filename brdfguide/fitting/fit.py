@@ -1,7 +1,7 @@
 """One model, one measurement, one fit; `fit_all` maps it over the candidates. Never compares models."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
@@ -10,38 +10,21 @@ from ..data.measurement import Measurement
 from ..errors import choices
 from ..finding import Finding
 from ..models import Composite
-from ..models.candidates import candidate_label, has_edge, without_edge
-from ..models.extensions import edge_starts
+from ..models.candidates import candidate_label
 from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
-from . import drift, starting_grid, weights
+from . import drift, weights
 from .diagnostics import profile_intervals, scan_gains, sigma_bound, standard_errors, unnoticed_faults
-from .followed import follow
 from .layout import Layout
 from .objective import METRICS, metric
 from .prepared import Prepared, Subset, expecting, few_channels, prepare
 from .residuals import ln_residuals, rms, rms_over_all
+from .search import OUTRUN, FitOptions, Search, Sought, followed_on, search, search_all
 
-WARM_UP_BUDGET = 8  # evaluations after which a start that lies far behind is followed no further
-GIVEN_FOLLOWED = 2  # of the starts that one is given, those that are followed beyond the warm-up
-OUTRUN = 1.5  # times the best rms: so far behind; such a model settles on SETTLE_SAMPLES
 PRUNED = 4.0  # times the best error beyond which a model is not refined
 LEAST_PRUNED = 0.5  # rms below which every model is refined
 ASKED_OF_DRIFT = 3  # of the best models, whose misfit may be the instrument's
 ROBUST_ROUNDS = 4
-
-
-@dataclass(frozen=True)
-class FitOptions:
-    """What a user may decide about a fit."""
-
-    metric: str = "ln"
-    close: str = "look"  # what may be taken in place of the best: look, none, or a percentage such as 1%
-    weights: str = "auto"  # auto, none, stderr, sampling
-    robust: bool = False
-    shape_per_channel: bool = False
-    fixed: Mapping[str, float] = field(default_factory=dict)
-    start: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -88,26 +71,6 @@ class Fit:
     def has(self, code: str, subject: str = "") -> bool:
         """Whether there is a warning with this code, about this parameter."""
         return any((warning.code, warning.subject) == (code, subject) for warning in self.warnings)
-
-
-@dataclass(frozen=True, eq=False)
-class Search:
-    """Where the starts of one model ended, on few directions and channels."""
-
-    layout: Layout
-    ends: list  # (shared, per_channel, rms), best first
-    evaluations: int
-    seconds: float
-
-    @property
-    def rms(self) -> float:
-        return self.ends[0][2]
-
-    @property
-    def values(self) -> dict:
-        """Where the best of them ended, in the few channels."""
-        shared, per_channel, _ = self.ends[0]
-        return replace(self.layout, channels=len(per_channel)).decode(shared, per_channel)
 
 
 def fit(model: Composite, measurement: Measurement | Prepared, options: FitOptions = FitOptions()) -> Fit:
@@ -225,13 +188,10 @@ def fit_all(
                 "parameter of any candidate", name, sorted({key for model in models for key in model.parameters})
             )
     data = prepare(measurement, options.weights)
-    searches = []
-    for model in models:
-        progress(f"searching {candidate_label(model)}")
-        searches.append(search(model, data, options))
+    searches = search_all([Sought(model) for model in models], data, options, progress)
     if data.missed is not None:  # how well the best does says which values are too dim to tell
         data = data.expecting(_best(searches))
-        searches = [followed_on(each, data, options) for each in searches]
+        searches = followed_on(searches, data, options)
     searches += more(searches, data)
     best, fits = _best(searches), []
     data = data.expecting(best)
@@ -318,78 +278,6 @@ def _adjusted(one: Fit, layout: Layout, found: drift.Adjusted, data: Prepared) -
         instrument=found.drift,
         ln_scan_gains=ln_scan_gains,
     )
-
-
-def _with_options(model: Composite, options: FitOptions) -> Composite:
-    """The sum with those of the user's fixed and start values that it has; `fit_all` refuses a name that none has."""
-    fixed, start = _its(model, options.fixed), _its(model, options.start)
-    free = tuple(key for key in model.free if key not in fixed)
-    return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
-
-
-def free_count(model: Composite, channels: int, options: FitOptions) -> int:
-    """How many numbers a fit of the sum searches for."""
-    return Layout(_with_options(model, options), channels, options.shape_per_channel).count
-
-
-def _its(model: Composite, wanted: Mapping[str, float]) -> dict[str, float]:
-    """Those of the user's values that belong to a parameter of this sum, by their full names."""
-    return model.qualified({name: value for name, value in wanted.items() if model.has(name)})
-
-
-@dataclass(frozen=True)
-class Given:
-    """Where to begin in place of a grid, and for how long to go on."""
-
-    starts: tuple[Mapping, ...] = ()  # in the few channels; none: the grid all the same
-    levels: bool = True  # whether their amplitudes are to be solved for
-    worth: float = np.inf  # rms that one has to reach in the warm-up to be followed further
-
-
-def search(model: Composite, data: Prepared, options: FitOptions, given: Given = Given()) -> Search:
-    """Follows the starts of a grid, or those given, and the user's, on few directions and channels."""
-    began, few = perf_counter(), data.search.measurement
-    layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
-    narrow = replace(layout, channels=few.brdf.shape[1]).walking()
-    misfit = data.search.misfit(narrow, metric(options.metric))
-    if has_edge(narrow.model) and not given.starts:
-        held = search(without_edge(narrow.model), data, options)
-        given = Given(edge_starts(narrow.model, held.values))
-    starts = [
-        starting_grid.amplitudes_by_channel(narrow, few, dict(start)) if given.levels else dict(start)
-        for start in given.starts
-    ] or starting_grid.grid_starts(narrow, few)
-    if users := _its(model, options.start):  # the rest as in the grid's best
-        starts.append({**starting_grid.amplitudes_by_channel(narrow, few, {**starts[0], **users}), **users})
-    first = follow(misfit, [narrow.encode(start) for start in starts], 1e-5, WARM_UP_BUDGET)
-    count = max(int(np.count_nonzero(few.weighed)), 1)
-    ahead = sorted(first, key=lambda end: end.cost)[: GIVEN_FOLLOWED if given.starts else None]
-    most = min(OUTRUN**2 * ahead[0].cost, given.worth**2 * count)
-    further = [place for place, end in enumerate(ahead) if not end.converged and end.cost <= most]
-    followed = follow(misfit, [(ahead[place].shared, ahead[place].per_channel) for place in further], 1e-5, 100)
-    ends = []
-    for end in (dict(enumerate(ahead)) | dict(zip(further, followed, strict=True))).values():
-        at = end.shared, end.per_channel
-        if narrow.walks:
-            at = narrow.standing().encode(narrow.decode(*at))
-        ends.append((*narrow.in_order(*at), float(np.sqrt(end.cost / count))))
-    evaluations = sum(end.evaluations for end in (*first, *followed))
-    return Search(layout, sorted(ends, key=lambda end: end[2]), evaluations, perf_counter() - began)
-
-
-def followed_on(searched: Search, data: Prepared, options: FitOptions) -> Search:
-    """A search that goes on from where it ended, on values that count otherwise than when it began."""
-    began, few = perf_counter(), data.search.measurement
-    narrow = replace(searched.layout, channels=few.brdf.shape[1])
-    misfit = data.search.misfit(narrow, metric(options.metric))
-    count = max(int(np.count_nonzero(few.weighed)), 1)
-    found = follow(misfit, [(shared, per_channel) for shared, per_channel, _ in searched.ends], 1e-5, 100)
-    ends = [
-        (*narrow.in_order(end.shared, end.per_channel), float(np.sqrt(end.cost / count)))
-        for end in sorted(found, key=lambda end: end.cost)
-    ]
-    evaluations = searched.evaluations + sum(end.evaluations for end in found)
-    return Search(searched.layout, ends, evaluations, searched.seconds + perf_counter() - began)
 
 
 def _spread_over_channels(per_channel, channels: int):

@@ -1,12 +1,13 @@
-"""Starts of one model, or held-out folds of it, followed side by side down to their minima."""
+"""Starts of models, or held-out folds of them, followed side by side down to their minima."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.descents import minimise_all
+from ..numerics.descents import Ends, Family, minimise_all
 from . import reading
+from .layout import Layout
 from .objective import Misfit
 
 MOST_CHANNELS = 8  # with more, each by itself: the arrow of its normal equations is then worth more
@@ -46,44 +47,54 @@ class Together:
         return stacked
 
 
-def follow(
-    misfit: Misfit, starts: Sequence[tuple[np.ndarray, np.ndarray]], tolerance: float, most: int, kept=None
-) -> list[End]:
-    """Where descents from `starts` (shared, per_channel) end; those of `kept` (starts, samples) look at these values
-    alone."""
-    if not _goes_together(misfit, len(starts)):
+@dataclass(frozen=True, eq=False)
+class Following:
+    """Descents of one model."""
+
+    misfit: Misfit
+    starts: Sequence[tuple[np.ndarray, np.ndarray]]  # (shared, per_channel)
+    kept: np.ndarray | None = None  # (starts, samples): which values each of them looks at; None: at all
+
+    @property
+    def goes_together(self) -> bool:
+        """Whether one call can evaluate all of them, and is worth it."""
+        layout, instrument = self.misfit.layout, self.misfit.measurement.instrument
+        beam = instrument.solid_angle is not None and layout.model.has_mirror
+        few = layout.channels <= MOST_CHANNELS and len(self.starts) * self.misfit.weights.size <= MOST_VALUES
+        return bool(self.starts) and few and not (layout.walks or beam)
+
+    def family(self) -> Family:
+        """The same as `numerics.descents` wants it."""
+        layout = self.misfit.layout
+        low, high = (
+            np.concatenate((shared, np.tile(own, layout.channels)))
+            for shared, own in zip(layout.bounds(layout.shared), layout.bounds(layout.per_channel), strict=True)
+        )
+        at = np.array([np.concatenate((shared, per_channel.ravel())) for shared, per_channel in self.starts])
+        return Family(Together(self.misfit, self.kept), at, len(layout.shared), layout.channels, low, high)
+
+    def one_by_one(self, tolerance: float, most: int) -> list[End]:
+        """Each of them by itself."""
         return [
-            _end(misfit if kept is None else _part(misfit, kept[place]), start, tolerance, most)
-            for place, start in enumerate(starts)
+            _end(self.misfit if self.kept is None else _part(self.misfit, self.kept[place]), start, tolerance, most)
+            for place, start in enumerate(self.starts)
         ]
-    layout = misfit.layout
+
+
+def follow(followings: Sequence[Following], tolerance: float, most: int) -> list[list[End]]:
+    """Where the descents of each model end, those of all models side by side."""
+    together = [each for each in followings if each.goes_together]
+    found = iter(minimise_all([each.family() for each in together], tolerance=tolerance, most=most))
+    return [
+        _ends(each.misfit.layout, next(found)) if each.goes_together else each.one_by_one(tolerance, most)
+        for each in followings
+    ]
+
+
+def _ends(layout: Layout, ends: Ends) -> list[End]:
     p, shape = len(layout.shared), (layout.channels, len(layout.per_channel))
-    at = np.array([np.concatenate((shared, per_channel.ravel())) for shared, per_channel in starts])
-    bounds = (
-        np.concatenate((shared, np.tile(own, layout.channels)))
-        for shared, own in zip(layout.bounds(layout.shared), layout.bounds(layout.per_channel), strict=True)
-    )
-    low, high = bounds
-    ends = minimise_all(
-        Together(misfit, kept),
-        at,
-        shared=p,
-        channels=layout.channels,
-        low=low,
-        high=high,
-        tolerance=tolerance,
-        most=most,
-    )
     found = zip(ends.at, ends.cost.tolist(), ends.evaluations.tolist(), ends.converged.tolist(), strict=True)
     return [End(row[:p], row[p:].reshape(shape), *rest) for row, *rest in found]
-
-
-def _goes_together(misfit: Misfit, count: int) -> bool:
-    """Whether one call can evaluate all of them, and is worth it."""
-    layout, instrument = misfit.layout, misfit.measurement.instrument
-    beam = instrument.solid_angle is not None and layout.model.has_mirror
-    few = layout.channels <= MOST_CHANNELS and count * misfit.weights.size <= MOST_VALUES
-    return count > 1 and few and not (layout.walks or beam)
 
 
 def _part(misfit: Misfit, kept) -> Misfit:

@@ -13,11 +13,11 @@ from ..models.extensions import Extension, edges, extensions, is_metallic
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
 from . import cross_validation
-from . import fit as fitting
 from .diagnostics import standard_errors
-from .fit import FitOptions, Given, Prepared, Search
+from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
 from .residuals import ln_residuals, rms
+from .search import FitOptions, Given, Search, Sought, free_count, search_all
 
 MOST_STEPS = 4
 ALIKE = 1.03  # times the least held-out error up to which the simpler step is taken
@@ -60,7 +60,7 @@ def grow(
     shown, steps = _shown(root, data), list[Step]()
     if not shown:
         return [], (Step(candidate_label(root.layout.model), root.rms, None, shown, because=NOISE),)
-    held = cross_validation.held_out_from(root.layout.model, root.values, used, options)
+    held = cross_validation.held_out_from([(root.layout.model, root.values)], used, options)[0]
     assert held is not None
     state, taken = State(root, held.rms_ln), _metal_with_edge(root, searches, data, options)
     while len(steps) < MOST_STEPS:
@@ -96,10 +96,10 @@ def _metal_with_edge(root: Search, searches: Iterable[Search], data: Prepared, o
     best = min(near, key=lambda each: (each.layout.count, each.rms), default=None)
     if best is None or best is root or is_metallic(root.layout.model) or best.rms > MOST_BEHIND * root.rms:
         return []
-    tried = [
-        fitting.search(each.model, data, options, Given(each.starts, each.levels, best.rms))
-        for each in edges(best.layout.model, best.values)
+    sought = [
+        Sought(each.model, Given(each.starts, each.levels, best.rms)) for each in edges(best.layout.model, best.values)
     ]
+    tried = search_all(sought, data, options)
     return [each for each in tried if each.rms < BETTER * best.rms]
 
 
@@ -114,16 +114,19 @@ def _tried(
     state: State, data: Prepared, options: FitOptions, kind: str | None, known: dict[str, Search]
 ) -> list[tuple[Extension, Search]]:
     """Every extension of a candidate, followed on few directions; best first."""
-    tried = []
     values, channels = int(np.count_nonzero(data.whole.usable)), data.whole.brdf.shape[1]
-    for each in extensions(state.search.layout.model, state.search.values, kind):
-        name = candidate_label(each.model)
-        if VALUES_EACH * fitting.free_count(each.model, channels, options) > values:
-            continue
-        if name not in known:
-            known[name] = fitting.search(each.model, data, options, Given(each.starts, each.levels, state.search.rms))
-        tried.append((each, known[name]))
-    return sorted(tried, key=lambda each: each[1].rms)
+    tried = {
+        candidate_label(each.model): each
+        for each in extensions(state.search.layout.model, state.search.values, kind)
+        if VALUES_EACH * free_count(each.model, channels, options) <= values
+    }
+    sought = {
+        name: Sought(each.model, Given(each.starts, each.levels, state.search.rms))
+        for name, each in tried.items()
+        if name not in known
+    }
+    known |= zip(sought, search_all(tuple(sought.values()), data, options), strict=True)
+    return sorted(((each, known[name]) for name, each in tried.items()), key=lambda each: each[1].rms)
 
 
 def _chosen(
@@ -133,10 +136,10 @@ def _chosen(
     are better than what there is, which are ranked beside it; nothing where none is.
     """
     better = [each for each in tried if each[1].rms < BETTER * state.search.rms][:FOLLOWED]
-    held = {}
-    for extension, search in better:
-        found = cross_validation.held_out_from(extension.model, search.values, used, options)
-        held[id(search)] = found.rms_ln if found else np.inf
+    found = cross_validation.held_out_from(
+        [(extension.model, search.values) for extension, search in better], used, options
+    )
+    held = {id(search): each.rms_ln if each else np.inf for (_, search), each in zip(better, found, strict=True)}
     rows = tuple(
         Tried(candidate_label(extension.model), extension.adds, search.rms, held.get(id(search)))
         for extension, search in tried
@@ -210,7 +213,7 @@ def _residuals(search: Search, data: Prepared) -> tuple[Surface, np.ndarray]:
 
 
 def _few(data: Prepared) -> Measurement:
-    return data.near.measurement.of_channels(fitting.few_channels(data.whole.brdf.shape[1]))
+    return data.near.measurement.of_channels(few_channels(data.whole.brdf.shape[1]))
 
 
 def _percent(ln_ratio: float) -> str:

@@ -1,16 +1,18 @@
-"""Many least-squares problems of one shape, each minimised as `least_squares.minimise` does it, side by side.
+"""Many least-squares problems, each minimised as `least_squares.minimise` does it, side by side.
 
     minimise  Σ_s Σ_c r_sc²  over  shared (p,)  and  per channel (channels, q),  for each of the problems
 
-They differ in where they begin and in their residuals, and each walks for itself: its radius, damping and end are its
-own. What a step costs beside arithmetic is paid once for all of them, which is most of what small problems cost.
-Normal equations are formed and inverted whole, without the arrow of covariance.py: for a few channels only.
+Those of a family are of one shape, and their residuals are formed in one call; they differ in where they begin and in
+what they look at. Each walks for itself: its radius, damping and end are its own. What a step costs beside arithmetic
+is paid once for all families, which is most of what small problems cost: of a problem with fewer coordinates than
+others the rest stand still. Normal equations are formed and inverted whole, without the arrow of covariance.py: for a
+few channels only.
 
 Source: as in least_squares.py and trust_region.py.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,9 +24,44 @@ from .trust_region import GOOD, LEAST_DAMPING, LOOSE, POOR, TURNS
 Evaluate = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Problems of one shape."""
+
+    evaluate: Evaluate
+    starts: np.ndarray  # (problems, p + channels q): the shared coordinates, then those of each channel
+    shared: int  # p
+    channels: int = 1
+    low: np.ndarray = field(default_factory=lambda: np.array(-np.inf))  # bounds, which broadcast to a start
+    high: np.ndarray = field(default_factory=lambda: np.array(np.inf))
+
+    @property
+    def own(self) -> int:
+        """q."""
+        return (self.starts.shape[1] - self.shared) // self.channels
+
+    def equations(self, which, at):
+        """Cost (b,), slope (b, P) and normal equations (b, P, P) of these problems."""
+        grams = _grams(self.evaluate(which, at))
+        p, q = self.shared, self.own
+        cost = grams[:, :, -1, -1].sum(axis=1)
+        if self.channels == 1:
+            return cost, grams[:, 0, :-1, -1], grams[:, 0, :-1, :-1]
+        size = p + self.channels * q
+        normal, slope = np.zeros((len(grams), size, size)), np.empty((len(grams), size))
+        normal[:, :p, :p], slope[:, :p] = grams[:, :, :p, :p].sum(axis=1), grams[:, :, :p, -1].sum(axis=1)
+        for channel in range(self.channels):
+            part = slice(p + channel * q, p + (channel + 1) * q)
+            between = grams[:, channel, :p, p:-1]
+            normal[:, :p, part], normal[:, part, :p] = between, np.swapaxes(between, 1, 2)
+            normal[:, part, part] = grams[:, channel, p:-1, p:-1]
+            slope[:, part] = grams[:, channel, p:-1, -1]
+        return cost, slope, normal
+
+
 @dataclass(frozen=True)
 class Ends:
-    """Where each of the problems ended."""
+    """Where each of the problems of a family ended."""
 
     at: np.ndarray  # (problems, p + channels q): the shared coordinates, then those of each channel
     cost: np.ndarray  # (problems,) sums of squares
@@ -32,31 +69,60 @@ class Ends:
     converged: np.ndarray  # (problems,)
 
 
+class _All:
+    """Problems of all families in rows, one family after another, with as many coordinates as the longest has."""
+
+    def __init__(self, families: Sequence[Family]):
+        self.families = families
+        self.firsts = np.cumsum([0, *(len(each.starts) for each in families)])
+        self.size = max(each.starts.shape[1] for each in families)
+        shape = int(self.firsts[-1]), self.size
+        self.low, self.high, starts = np.full(shape, -np.inf), np.full(shape, np.inf), np.zeros(shape)
+        for each, first in zip(families, self.firsts.tolist(), strict=False):
+            part = slice(first, first + len(each.starts)), slice(each.starts.shape[1])
+            self.low[part], self.high[part], starts[part] = each.low, each.high, each.starts
+        self.starts = np.minimum(np.maximum(starts, self.low), self.high)
+
+    def equations(self, which, at):
+        """Cost (b,), slope (b, size) and normal equations (b, size, size) of these problems, in ascending order."""
+        cost, slope = np.empty(len(at)), np.zeros(at.shape)
+        normal = np.zeros((*at.shape, self.size))
+        bounds = np.searchsorted(which, self.firsts).tolist()
+        for each, first, start, stop in zip(self.families, self.firsts.tolist(), bounds, bounds[1:], strict=False):
+            if start < stop:
+                count, part = each.starts.shape[1], slice(start, stop)
+                found = each.equations(which[part] - first, at[part, :count])
+                cost[part], slope[part, :count], normal[part, :count, :count] = found
+                rest = np.arange(count, self.size)
+                normal[part, rest, rest] = 1.0
+        return np.where(np.isnan(cost), np.inf, cost), slope, normal
+
+
 class _State:
     """Where the problems are that have not ended, one in each row."""
 
-    def __init__(self, which, at, row, grams):
-        self.which, self.at, self.row = which, at, row
-        self.cost, self.slope, self.normal = row.equations(grams)
-        count = len(which)
+    def __init__(self, problems: _All):
+        count = len(problems.starts)
+        self.which, self.at = np.arange(count), problems.starts.copy()
+        self.low, self.high = problems.low, problems.high
+        self.cost, self.slope, self.normal = problems.equations(self.which, self.at)
         self.damping, self.least = np.full(count, LEAST_DAMPING), np.full(count, LEAST_DAMPING)
         self.scale = np.sqrt(np.maximum(_diagonal(self.normal), 1e-30))
-        length = _length(self.scale * at)
+        length = _length(self.scale * self.at)
         self.radius = np.where(length > 0, length, 1.0)
         self.evaluations, self.converged = np.ones(count, int), np.zeros(count, bool)
         self.new = np.ones(count, bool)  # whether the point is one from which no step was formed yet
         self.history = np.full((count, STALL + 1), np.inf)  # the least costs after the last evaluations
         self.history[:, -1] = self.cost
-        self.down = np.zeros_like(at)  # in units of 1/scale, as what follows
+        self.down = np.zeros_like(self.at)  # in units of 1/scale, as what follows
         self.scaled, self.inverse = np.zeros_like(self.normal), np.zeros_like(self.normal)
-        self.best, self.reached = np.zeros_like(at), np.zeros(count)
+        self.best, self.reached = np.zeros_like(self.at), np.zeros(count)
 
     def kept(self, rows) -> None:
         """Those rows alone."""
         if not rows.all():
             for name, value in vars(self).items():
-                if name != "row":
-                    setattr(self, name, value[rows])
+                setattr(self, name, value[rows])
 
     def take(self, rows, at, cost, slope, normal) -> None:
         """The problems in these rows have moved."""
@@ -71,12 +137,12 @@ class _State:
         self.best[rows] = best = (inverse @ self.down[rows, :, None])[:, :, 0]
         self.reached[rows] = _length(best)
 
-    def steps(self, low, high):
+    def steps(self):
         """Of each problem the step to the least of its quadratic model within its radius."""
         if self.new.any():
             rows = np.flatnonzero(self.new)
-            slope = self.slope[rows]
-            stuck = ((self.at[rows] <= low) & (slope > 0)) | ((self.at[rows] >= high) & (slope < 0))
+            slope, at = self.slope[rows], self.at[rows]
+            stuck = ((at <= self.low[rows]) & (slope > 0)) | ((at >= self.high[rows]) & (slope < 0))
             self.scale[rows] = scale = np.maximum(self.scale[rows], np.sqrt(_diagonal(self.normal)[rows]))
             scaled = self.normal[rows] / (scale[:, :, None] * scale[:, None, :])
             if stuck.any():
@@ -119,69 +185,31 @@ class _State:
         self.history[rows, -1] = self.cost[rows]
 
 
-@dataclass(frozen=True)
-class _Row:
-    """How the coordinates of a problem lie in one row of numbers."""
-
-    shared: int
-    channels: int
-    own: int
-
-    def equations(self, grams):
-        """Cost (b,), slope (b, P) and normal equations (b, P, P) from (b, channels, k + 1, k + 1)."""
-        p, q = self.shared, self.own
-        cost = grams[:, :, -1, -1].sum(axis=1)
-        cost = np.where(np.isnan(cost), np.inf, cost)
-        if self.channels == 1:
-            return cost, grams[:, 0, :-1, -1], grams[:, 0, :-1, :-1]
-        size = p + self.channels * q
-        normal, slope = np.zeros((len(grams), size, size)), np.empty((len(grams), size))
-        normal[:, :p, :p], slope[:, :p] = grams[:, :, :p, :p].sum(axis=1), grams[:, :, :p, -1].sum(axis=1)
-        for channel in range(self.channels):
-            part = slice(p + channel * q, p + (channel + 1) * q)
-            between = grams[:, channel, :p, p:-1]
-            normal[:, :p, part], normal[:, part, :p] = between, np.swapaxes(between, 1, 2)
-            normal[:, part, part] = grams[:, channel, p:-1, p:-1]
-            slope[:, part] = grams[:, channel, p:-1, -1]
-        return cost, slope, normal
-
-
 @np.errstate(over="ignore", invalid="ignore")
-def minimise_all(
-    evaluate: Evaluate,
-    starts,
-    *,
-    shared: int,
-    channels: int = 1,
-    low=-np.inf,
-    high=np.inf,
-    tolerance: float = 1e-9,
-    most: int = 100,
-) -> Ends:
-    """The least sums of squares that descents from `starts` (problems, p + channels q) reach.
+def minimise_all(families: Sequence[Family], *, tolerance: float = 1e-9, most: int = 100) -> list[Ends]:
+    """The least sums of squares that descents from the starts of each family reach.
 
-    Takes  how many coordinates all channels share, bounds that broadcast to a start; `tolerance` and `most` as in
-    `least_squares.minimise`, which gives the same for each alone.    Raises nothing.
+    Takes  `tolerance` and `most` as in `least_squares.minimise`, which gives the same for each alone. Raises nothing.
     """
-    starts = np.asarray(starts, float)
-    row = _Row(shared, channels, (starts.shape[1] - shared) // channels)
-    at = np.minimum(np.maximum(starts, low), high)
-    everything = np.arange(len(at))
-    ends = Ends(at.copy(), np.full(len(at), np.inf), np.ones(len(at), int), np.zeros(len(at), bool))
-    state = _State(everything, at, row, _grams(evaluate(everything, at)))
+    if not families:
+        return []
+    problems = _All(families)
+    count = len(problems.starts)
+    ends = Ends(problems.starts.copy(), np.full(count, np.inf), np.ones(count, int), np.zeros(count, bool))
+    state = _State(problems)
     while True:
         live = ~state.converged & (state.evaluations < most) & (state.damping < MOST_DAMPING)
         if not live.all():
             _put(ends, state, ~live)
             state.kept(live)
             if not live.any():
-                return ends
-        _step(evaluate, state, low, high, tolerance)
+                return [_of(ends, first, each) for first, each in zip(problems.firsts.tolist(), families, strict=False)]
+        _step(problems, state, tolerance)
 
 
-def _step(evaluate: Evaluate, state: _State, low, high, tolerance: float) -> None:
+def _step(problems: _All, state: _State, tolerance: float) -> None:
     """One step of every problem that is left; of those that end before it, none."""
-    trial = np.minimum(np.maximum(state.at + state.steps(low, high), low), high)
+    trial = np.minimum(np.maximum(state.at + state.steps(), state.low), state.high)
     step = trial - state.at
     promised = -(2 * (state.slope * step).sum(axis=1) + (step[:, None, :] @ state.normal @ step[:, :, None])[:, 0, 0])
     short = (np.abs(step) / (1e-3 + np.abs(state.at))).max(axis=1, initial=0.0) < tolerance * 1e-2
@@ -192,7 +220,7 @@ def _step(evaluate: Evaluate, state: _State, low, high, tolerance: float) -> Non
     if not len(rows):
         return
     trial, step, promised = trial[rows], step[rows], promised[rows]
-    cost, slope, normal = state.row.equations(_grams(evaluate(state.which[rows], trial)))
+    cost, slope, normal = problems.equations(state.which[rows], trial)
     state.evaluations[rows] += 1
     gain = (state.cost[rows] - cost) / promised
     accepted = gain > 0
@@ -217,6 +245,12 @@ def _put(ends: Ends, state: _State, rows) -> None:
     ends.converged[which] = np.isfinite(state.cost[rows]) & (
         state.converged[rows] | (state.damping[rows] >= MOST_DAMPING)
     )
+
+
+def _of(ends: Ends, first: int, family: Family) -> Ends:
+    """Those of one family."""
+    rows = slice(first, first + len(family.starts))
+    return Ends(ends.at[rows, : family.starts.shape[1]], ends.cost[rows], ends.evaluations[rows], ends.converged[rows])
 
 
 def _grams(stacked) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from brdfguide import models
-from brdfguide.fitting.followed import Together, _goes_together, follow
+from brdfguide.fitting.followed import Following, Together, follow
 from brdfguide.fitting.layout import Layout
 from brdfguide.fitting.objective import Misfit, metric
 from brdfguide.fitting.starting_grid import grid_starts
@@ -39,9 +39,9 @@ def alone(misfit: Misfit, start, most: int):
 @pytest.mark.parametrize("model", [each.name for each in candidates.of_kind(None)])
 def test_every_candidate_ends_alike(model):
     misfit = misfit_of(models.get(model), made())
-    if not _goes_together(misfit, 3):
+    if not Following(misfit, starts_of(misfit)).goes_together:
         pytest.fail(f"{model} would be followed one start at a time")
-    for start, end in zip(starts_of(misfit), follow(misfit, starts_of(misfit), 1e-6, 6), strict=True):
+    for start, end in zip(starts_of(misfit), follow([Following(misfit, starts_of(misfit))], 1e-6, 6)[0], strict=True):
         by_itself = alone(misfit, start, 6)
         assert end.evaluations == by_itself.evaluations
         assert end.cost == pytest.approx(by_itself.cost, rel=1e-8)
@@ -52,7 +52,7 @@ def test_every_candidate_ends_alike(model):
 @pytest.mark.parametrize("shape_per_channel", [False, True])
 def test_every_scale_and_instrument_ends_alike(scale, more, shape_per_channel):
     misfit = misfit_of(models.get("lambertian+ggx"), made(**more), scale, shape_per_channel)
-    for start, end in zip(starts_of(misfit), follow(misfit, starts_of(misfit), 1e-6, 30), strict=True):
+    for start, end in zip(starts_of(misfit), follow([Following(misfit, starts_of(misfit))], 1e-6, 30)[0], strict=True):
         by_itself = alone(misfit, start, 30)
         assert end.evaluations == by_itself.evaluations
         np.testing.assert_allclose(end.shared, by_itself.shared, rtol=1e-8, atol=1e-9)
@@ -66,7 +66,7 @@ def test_a_fold_looks_at_no_value_that_is_held_out():
     wrong[~kept[0]] *= 1e3  # what the first fold must not notice
     misfit = misfit_of(models.get("lambertian+ggx"), replace(data, brdf=wrong))
     start = misfit.layout.encode(TRUTH)
-    ends = follow(misfit, [start] * 3, 1e-6, 30, kept)
+    ends = follow([Following(misfit, [start] * 3, kept)], 1e-6, 30)[0]
     for mask, end in zip(kept, ends, strict=True):
         rest = misfit_of(models.get("lambertian+ggx"), replace(data, brdf=wrong)[mask])
         assert end.cost == pytest.approx(rest.descend(start, 1e-6, 30).cost, rel=1e-9)

@@ -1,0 +1,207 @@
+"""Where the starts of models end: the first, coarse part of a fit, on few directions and channels."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+
+import numpy as np
+
+from ..models import Composite
+from ..models.candidates import candidate_label, has_edge, without_edge
+from ..models.extensions import edge_starts
+from . import starting_grid
+from .followed import End, Following, follow
+from .layout import Layout
+from .objective import Misfit, metric
+from .prepared import Prepared
+
+WARM_UP_BUDGET = 8  # evaluations after which a start that lies far behind is followed no further
+MOST_EVALUATIONS = 100
+TOLERANCE = 1e-5
+GIVEN_FOLLOWED = 2  # of the starts that one is given, those that are followed beyond the warm-up
+OUTRUN = 1.5  # times the best rms: so far behind; such a model settles on SETTLE_SAMPLES
+
+
+@dataclass(frozen=True)
+class FitOptions:
+    """What a user may decide about a fit."""
+
+    metric: str = "ln"
+    close: str = "look"  # what may be taken in place of the best: look, none, or a percentage such as 1%
+    weights: str = "auto"  # auto, none, stderr, sampling
+    robust: bool = False
+    shape_per_channel: bool = False
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    start: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """Where the starts of one model ended, on few directions and channels."""
+
+    layout: Layout
+    ends: list  # (shared, per_channel, rms), best first
+    evaluations: int
+    seconds: float
+
+    @property
+    def rms(self) -> float:
+        return self.ends[0][2]
+
+    @property
+    def values(self) -> dict:
+        """Where the best of them ended, in the few channels."""
+        shared, per_channel, _ = self.ends[0]
+        return replace(self.layout, channels=len(per_channel)).decode(shared, per_channel)
+
+
+def _with_options(model: Composite, options: FitOptions) -> Composite:
+    """The sum with those of the user's fixed and start values that it has; `fit_all` refuses a name that none has."""
+    fixed, start = _its(model, options.fixed), _its(model, options.start)
+    free = tuple(key for key in model.free if key not in fixed)
+    return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
+
+
+def free_count(model: Composite, channels: int, options: FitOptions) -> int:
+    """How many numbers a fit of the sum searches for."""
+    return Layout(_with_options(model, options), channels, options.shape_per_channel).count
+
+
+def _its(model: Composite, wanted: Mapping[str, float]) -> dict[str, float]:
+    """Those of the user's values that belong to a parameter of this sum, by their full names."""
+    return model.qualified({name: value for name, value in wanted.items() if model.has(name)})
+
+
+@dataclass(frozen=True)
+class Given:
+    """Where to begin in place of a grid, and for how long to go on."""
+
+    starts: tuple[Mapping, ...] = ()  # in the few channels; none: the grid all the same
+    levels: bool = True  # whether their amplitudes are to be solved for
+    worth: float = np.inf  # rms that one has to reach in the warm-up to be followed further
+
+
+@dataclass(frozen=True)
+class Sought:
+    """A model to search for."""
+
+    model: Composite
+    given: Given = Given()
+
+
+def search(model: Composite, data: Prepared, options: FitOptions, given: Given = Given()) -> Search:
+    """Follows the starts of a grid, or those given, and the user's, on few directions and channels."""
+    return search_all([Sought(model, given)], data, options)[0]
+
+
+def search_all(
+    sought: Sequence[Sought], data: Prepared, options: FitOptions, progress: Callable[[str], None] = lambda name: None
+) -> list[Search]:
+    """The same of many models, whose descents take their steps side by side."""
+    begun = []
+    for each in sought:
+        progress(f"searching {candidate_label(each.model)}")
+        begun.append(_begin(each.model, data, options, each.given))
+    began = perf_counter()
+    first = follow([each.following for each in begun], TOLERANCE, WARM_UP_BUDGET)
+    ahead = [_ahead(each, found) for each, found in zip(begun, first, strict=True)]
+    further = [each.further(found) for each, found in zip(begun, ahead, strict=True)]
+    followed = follow(
+        [
+            each.from_ends([found[place] for place in places])
+            for each, found, places in zip(begun, ahead, further, strict=True)
+        ],
+        TOLERANCE,
+        MOST_EVALUATIONS,
+    )
+    spent = [sum(end.evaluations for end in (*one, *more)) for one, more in zip(first, followed, strict=True)]
+    each_takes = (perf_counter() - began) / max(sum(spent), 1)
+    return [
+        each.ended(dict(enumerate(found)) | dict(zip(places, more, strict=True)), count, each_takes * count)
+        for each, found, places, more, count in zip(begun, ahead, further, followed, spent, strict=True)
+    ]
+
+
+@dataclass(frozen=True, eq=False)
+class _Begun:
+    """A model with the places where its descents begin."""
+
+    layout: Layout
+    narrow: Layout  # of few channels
+    misfit: Misfit
+    starts: Sequence[Mapping]
+    given: Given
+    seconds: float
+
+    @property
+    def following(self) -> Following:
+        return Following(self.misfit, [self.narrow.encode(start) for start in self.starts])
+
+    def from_ends(self, ends: Sequence[End]) -> Following:
+        return Following(self.misfit, [(end.shared, end.per_channel) for end in ends])
+
+    @property
+    def count(self) -> int:
+        """Values that are looked at."""
+        return max(int(np.count_nonzero(self.misfit.measurement.weighed)), 1)
+
+    def further(self, ahead: list[End]) -> list[int]:
+        """Which ends of the warm-up are worth following."""
+        most = min(OUTRUN**2 * ahead[0].cost, self.given.worth**2 * self.count)
+        return [place for place, end in enumerate(ahead) if not end.converged and end.cost <= most]
+
+    def ended(self, found: Mapping[int, End], evaluations: int, seconds: float) -> Search:
+        ends = []
+        for end in found.values():
+            at = end.shared, end.per_channel
+            if self.narrow.walks:
+                at = self.narrow.standing().encode(self.narrow.decode(*at))
+            ends.append((*self.narrow.in_order(*at), float(np.sqrt(end.cost / self.count))))
+        return Search(self.layout, sorted(ends, key=lambda end: end[2]), evaluations, self.seconds + seconds)
+
+
+def _begin(model: Composite, data: Prepared, options: FitOptions, given: Given) -> _Begun:
+    began, few = perf_counter(), data.search.measurement
+    layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
+    narrow = replace(layout, channels=few.brdf.shape[1]).walking()
+    misfit = data.search.misfit(narrow, metric(options.metric))
+    if has_edge(narrow.model) and not given.starts:
+        held = search(without_edge(narrow.model), data, options)
+        given = Given(edge_starts(narrow.model, held.values))
+    starts = [
+        starting_grid.amplitudes_by_channel(narrow, few, dict(start)) if given.levels else dict(start)
+        for start in given.starts
+    ] or starting_grid.grid_starts(narrow, few)
+    if users := _its(model, options.start):  # the rest as in the grid's best
+        starts.append({**starting_grid.amplitudes_by_channel(narrow, few, {**starts[0], **users}), **users})
+    return _Begun(layout, narrow, misfit, starts, given, perf_counter() - began)
+
+
+def _ahead(begun: _Begun, found: list[End]) -> list[End]:
+    """The ends of the warm-up that count, best first."""
+    return sorted(found, key=lambda end: end.cost)[: GIVEN_FOLLOWED if begun.given.starts else None]
+
+
+def followed_on(searches: Sequence[Search], data: Prepared, options: FitOptions) -> list[Search]:
+    """Searches that go on from where they ended, on values that count otherwise than when they began."""
+    began, few = perf_counter(), data.search.measurement
+    narrow = [replace(each.layout, channels=few.brdf.shape[1]) for each in searches]
+    misfits = [data.search.misfit(layout, metric(options.metric)) for layout in narrow]
+    count = max(int(np.count_nonzero(few.weighed)), 1)
+    found = follow(
+        [
+            Following(misfit, [(shared, per_channel) for shared, per_channel, _ in each.ends])
+            for misfit, each in zip(misfits, searches, strict=True)
+        ],
+        TOLERANCE,
+        MOST_EVALUATIONS,
+    )
+    seconds, on = (perf_counter() - began) / max(len(searches), 1), []
+    for layout, each, followed in zip(narrow, searches, found, strict=True):
+        ends = [
+            (*layout.in_order(end.shared, end.per_channel), float(np.sqrt(end.cost / count)))
+            for end in sorted(followed, key=lambda end: end.cost)
+        ]
+        evaluations = each.evaluations + sum(end.evaluations for end in followed)
+        on.append(Search(each.layout, ends, evaluations, each.seconds + seconds))
+    return on
