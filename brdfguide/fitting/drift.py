@@ -10,6 +10,7 @@ after the last: over the core of a narrow lobe ln f is not straight in its zero.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,13 +19,13 @@ from ..data.noise_model import SIGMA_PER_MEDIAN
 from ..data.scans import arm_turned
 from ..finding import Finding
 from ..flags import Effect
+from ..formed import formed
 from ..numerics.covariance import covariance_of
 from . import weights
 from .diagnostics import standard_errors
 from .layout import Layout
 from .objective import METRICS, Misfit
 from .prepared import Prepared
-from .reading import reading
 
 GAIN = 0.02  # prior standard deviation of ln gain between scans: lamp and detector of a goniometer (ours)
 ZERO_DEG = 0.2  # prior standard deviation of the arm's zero (ours)
@@ -95,18 +96,18 @@ def adjusted(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndar
         shared, per_channel = alone.shared, alone.per_channel
     priors = np.r_[np.full(len(angles), GAIN), ZERO_DEG]
     nuisance = np.zeros(len(priors))
-    alone = misfit(shared, per_channel, False)
-    before, common = float(np.sum(alone**2)), standard_errors.common_channels(alone)
+    here = _around(misfit, shared, per_channel, scan, len(angles))
+    before, common = float(np.sum(here.residual**2)), standard_errors.common_channels(here.residual)
     count = int(np.count_nonzero(data.fewer.measurement.weighed)) - layout.count
     variance = common * before / max(count, 1)
-    columns = _columns(misfit, shared, per_channel, scan, len(angles))
     for _ in range(STEPS):
-        step, covariance, free = _step(misfit, shared, per_channel, columns, nuisance, variance / priors**2)
+        free = _inside(layout, shared, per_channel)
+        step, covariance = _step(here, free, nuisance, variance / priors**2)
         shared, per_channel = _moved(layout, shared, per_channel, step[: len(step) - len(priors)], free)
         nuisance = nuisance + step[-len(priors) :]
         misfit = replace(misfit, measurement=_turned(data.fewer.measurement, float(nuisance[-1])))
-        columns = _columns(misfit, shared, per_channel, scan, len(angles))
-        left = _left(misfit(shared, per_channel, False), columns, nuisance)
+        here = _around(misfit, shared, per_channel, scan, len(angles))
+        left = _left(here, nuisance)
         common = standard_errors.common_channels(left)
         variance = max(common * float(np.sum(left**2)) / max(count - len(priors), 1), 1e-30)
         if np.all(np.abs(step) < SETTLED * np.sqrt(variance * np.diag(covariance))):
@@ -141,51 +142,60 @@ def _turned(measurement: Measurement, zero_deg: float) -> Measurement:
     return replace(measurement, geom=arm_turned(measurement.geom, zero_deg))
 
 
-def _left(residual, columns, nuisance) -> np.ndarray:
-    """Residuals (samples, channels), taken where the arm stands, without the gains."""
-    return residual + np.tensordot(columns[..., :-1], nuisance[:-1], axes=(2, 0))
+@formed
+def _either_side(measurement: Measurement) -> tuple[Measurement, Measurement]:
+    """The same with the arm a little farther from the normal, and a little nearer."""
+    return _turned(measurement, STEP), _turned(measurement, -STEP)
 
 
-def _columns(misfit: Misfit, shared, per_channel, scan, scans: int) -> np.ndarray:
-    """d residual / d nuisance, (samples, channels, scans + 1): the gains, then the zero.
+class _Around(NamedTuple):
+    """Residuals where the search is and the arm stands, and their derivatives."""
 
-    A gain is taken of the model: of a value near the dark level it would follow that value's own noise.
-    """
+    residual: np.ndarray  # (samples, channels)
+    by_shared: np.ndarray  # (channels, samples, p)
+    by_own: np.ndarray  # (channels, samples, q)
+    columns: np.ndarray  # (samples, channels, scans + 1) by what the instrument does: the gains, then the zero
+
+
+def _around(misfit: Misfit, shared, per_channel, scan, scans: int) -> _Around:
+    """A gain is taken of the model: of a value near the dark level it would follow that value's own noise."""
     measurement = misfit.measurement
-    surface = misfit.layout.surface(shared, per_channel, measurement)
-    model = np.where(measurement.weighed, reading(surface, measurement.instrument), np.nan)
-
-    def residual(other: Measurement):
-        return replace(misfit, measurement=other)(shared, per_channel, False)
-
-    gain = [residual(replace(measurement, brdf=model * np.exp(sign * STEP))) for sign in (-1, 1)]
-    zero = [residual(_turned(measurement, sign * STEP)) for sign in (1, -1)]
-    columns = np.zeros((*gain[0].shape, scans + 1))
+    read, residual, by_shared, by_own = misfit.with_reading(shared, per_channel)
+    model = np.where(measurement.weighed, read, np.nan)
+    gain = [
+        replace(misfit, measurement=replace(measurement, brdf=model * np.exp(sign * STEP))).of_reading(read)
+        for sign in (-1, 1)
+    ]
+    zero = [replace(misfit, measurement=side)(shared, per_channel, False) for side in _either_side(measurement)]
+    columns = np.zeros((*residual.shape, scans + 1))
     columns[np.arange(len(scan)), :, scan] = (gain[0] - gain[1]) / (2 * STEP)
     columns[..., -1] = (zero[0] - zero[1]) / (2 * STEP)
-    return columns
+    return _Around(residual, by_shared, by_own, columns)
 
 
-def _step(misfit: Misfit, shared, per_channel, columns, nuisance, weights):
-    """One step of all that is free, its covariance in units of the variance, and which coordinates are free."""
-    residual, j_shared, j_per_channel = misfit(shared, per_channel, True)
-    left = _left(residual, columns, nuisance)
+def _left(here: _Around, nuisance) -> np.ndarray:
+    """Residuals (samples, channels), taken where the arm stands, without the gains."""
+    return here.residual + np.tensordot(here.columns[..., :-1], nuisance[:-1], axes=(2, 0))
+
+
+def _step(here: _Around, free, nuisance, weights):
+    """One step of all that is `free`, and its covariance in units of the variance."""
+    left, j_shared, j_per_channel = _left(here, nuisance), here.by_shared, here.by_own
     channels, samples, count = j_shared.shape
     own = j_per_channel.shape[2]
     design = np.zeros((channels, samples, count + channels * own + len(nuisance)))
     design[:, :, :count] = j_shared
     for channel in range(channels):
         design[channel, :, count + channel * own : count + (channel + 1) * own] = j_per_channel[channel]
-    design[:, :, count + channels * own :] = np.swapaxes(columns, 0, 1)
+    design[:, :, count + channels * own :] = np.swapaxes(here.columns, 0, 1)
     design = design.reshape(channels * samples, -1)
-    free = _inside(misfit.layout, shared, per_channel)
     kept = np.r_[np.flatnonzero(free), np.arange(len(free), design.shape[1])]
     design, right = design[:, kept], -np.ravel(left.T)
     normal = design.T @ design
     normal[np.diag_indices(len(normal))] += np.r_[np.zeros(int(free.sum())), weights]
     aim = design.T @ right - np.r_[np.zeros(int(free.sum())), weights * nuisance]
     covariance = covariance_of(normal, np.diag(normal))
-    return covariance @ aim, covariance, free
+    return covariance @ aim, covariance
 
 
 def _inside(layout: Layout, shared, per_channel) -> np.ndarray:

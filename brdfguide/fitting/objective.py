@@ -110,16 +110,24 @@ class Misfit:
         return 1.0 if self.metric.relative else self._metric.scale(self._data)
 
     def __call__(self, shared, per_channel, want_jacobian: bool):
+        if want_jacobian:
+            return self.with_reading(shared, per_channel)[1:]
         surface = self.layout.surface(shared, per_channel, self.measurement)
-        if not want_jacobian:
-            f = reading.reading(surface, self.measurement.instrument)
-            f = f.T
-            return self._residual(f if f.min() > SMALLEST else np.maximum(f, SMALLEST), self._root_weights).T
+        return self.of_reading(reading.reading(surface, self.measurement.instrument))
+
+    def with_reading(self, shared, per_channel):
+        """What the instrument would read (samples, channels); and residuals with their derivatives."""
+        surface = self.layout.surface(shared, per_channel, self.measurement)
         f, slopes = reading.with_slopes(self.layout, surface, self.measurement.instrument)
         r, factor = self.residuals_and_factor(f.T)
         stacked = self._stack(slopes, factor)
         self.within_range(f, stacked)
-        return r.T, *np.split(np.swapaxes(stacked, 1, 2), [len(self.layout.shared)], axis=2)
+        return f, r.T, *np.split(np.swapaxes(stacked, 1, 2), [len(self.layout.shared)], axis=2)
+
+    def of_reading(self, f) -> np.ndarray:
+        """Residuals of what an instrument would read, both (samples, channels)."""
+        f = f.T
+        return self._residual(f if f.min() > SMALLEST else np.maximum(f, SMALLEST), self._root_weights).T
 
     def residuals_and_factor(self, f, kept=None):
         """Residuals of f (..., channels, samples), and what makes slopes of f slopes of them; 0 where not `kept`."""
