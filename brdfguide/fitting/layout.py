@@ -75,6 +75,14 @@ class Layout:
             out.append((term.model, term.keys, free))
         return out
 
+    @cached_property
+    def by_law(self) -> list[list[int]]:
+        """Places in `by_term` of terms of one law of which the same is searched for."""
+        laws: dict[tuple, list[int]] = {}
+        for place, (model, _, free) in enumerate(self.by_term):
+            laws.setdefault((id(model), tuple(free)), []).append(place)
+        return [places for places in laws.values() if len(places) > 1]
+
     @property
     def count(self) -> int:
         """Free numbers in all."""

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from ..models.model import Parameter
+from ..models.model import Model, Parameter
 from ..models.surface import Surface
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
@@ -18,6 +18,7 @@ from .layout import Layout, from_coordinate, slope_of_coordinate, to_coordinate
 
 LARGE = 32_768  # directions beyond which blocks and threads pay
 THREADS = 2
+TOGETHER = 8192  # values up to which the terms of one law are evaluated in one call
 STEP = 1e-5  # of a coordinate, for central differences
 
 
@@ -107,14 +108,14 @@ def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry):
     """
     total: np.ndarray | float = 0.0
     slopes: dict[str, np.ndarray] = {}
-    for model, keys, free in layout.by_term:
+    evaluated = _of_laws(layout, values, geom) if layout.by_law else {}
+    for place, (model, keys, free) in enumerate(layout.by_term):
         of_term = {name: values[key] for name, key in keys.items()}
         amplitude = model.amplitude
         height = of_term.get(amplitude, 1.0)
         unit = {**of_term, amplitude: 1.0} if amplitude else of_term
         wanted = [name for name in free if name != amplitude]
-        known = model.gradient(geom, wanted, **unit) if model.gradient and wanted else {}
-        shape = known[amplitude] if amplitude in known else model(geom, **unit)
+        shape, known = evaluated.get(place) or _shape_and_slopes(model, geom, wanted, unit)
         total = total + height * shape
         slopes_of_term = {amplitude: shape} if amplitude in free else {}
         for name in wanted:
@@ -126,6 +127,45 @@ def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry):
         for name, slope in slopes_of_term.items():  # a parameter that terms share has a slope through each of them
             slopes[keys[name]] = slopes[keys[name]] + slope if keys[name] in slopes else slope
     return total, slopes
+
+
+def _of_laws(layout: Layout, values: Mapping, geom: Geometry) -> dict[int, tuple[np.ndarray, dict]]:
+    """Values at unit amplitude and known slopes of terms of one law, of many surfaces, in one call."""
+    found = {}
+    for places in layout.by_law:
+        model, _, free = layout.by_term[places[0]]
+        terms = [
+            {name: 1.0 if name == model.amplitude else values[key] for name, key in layout.by_term[place][1].items()}
+            for place in places
+        ]
+        surfaces = {np.shape(each)[0] for term in terms for each in term.values() if np.ndim(each) == 3}
+        count = max(surfaces, default=0)
+        if len(surfaces) != 1 or len(terms) * count * geom.shape[-1] > TOGETHER:
+            continue
+        unit = {name: _stacked(terms, name, count) for name in terms[0]}
+        shape, known = _shape_and_slopes(model, geom, [name for name in free if name != model.amplitude], unit)
+        for turn, place in enumerate(places):
+            part = slice(turn * count, (turn + 1) * count)
+            parts = [
+                each[part] if np.ndim(each) == 3 and len(each) == count * len(terms) else each
+                for each in (shape, *known.values())
+            ]
+            found[place] = parts[0], dict(zip(known, parts[1:], strict=True))
+    return found
+
+
+def _stacked(terms: list[dict], name: str, surfaces: int):
+    """The values of a parameter of several terms one after another; a number where it is the same of all."""
+    each = [term[name] for term in terms]
+    if not any(map(np.ndim, each)) and len(set(map(float, each))) == 1:
+        return each[0]
+    channels = max(np.shape(value)[1] if np.ndim(value) == 3 else 1 for value in each)
+    return np.concatenate([np.broadcast_to(value, (surfaces, channels, 1)) for value in each])
+
+
+def _shape_and_slopes(model: Model, geom: Geometry, wanted: list[str], unit: Mapping) -> tuple[np.ndarray, dict]:
+    known = model.gradient(geom, wanted, **unit) if model.gradient and wanted else {}
+    return known[model.amplitude] if model.amplitude in known else model(geom, **unit), known
 
 
 def _channels_first(values: Mapping) -> dict:

@@ -13,22 +13,26 @@ Source: Ribardière, Bringier, Meneveaux and Simonot 2017, "STD: Student's t-dis
 BSDFs"; the integral of the masking in this form is ours.
 """
 
+from dataclasses import dataclass
 from functools import lru_cache
 from math import pi
 
 import numpy as np
 
+from ..formed import formed
 from ..numerics import chebyshev
 from ..physics import fresnel
-from ..physics.geometry import Geometry
+from ..physics.geometry import Directions, Geometry
 from ._microfacet import INDEX, gradient_by, reduced
 from .facts import Candidacy, Formula, coefficients, polynomial
 from .model import Extreme, Model, Parameter, Pin, at
 
+OCTAVE_NODES = 16  # along the logarithm of g - 3/2
 NODES = 40  # of the Chebyshev series: 31 hold J to 1e-14 at g = 1000, 10 at g = 2
 STEP = 0.1  # of the trapezoidal rule
 WIDE_STEP = 0.15  # the same to 3e-15 where p is small
 WIDE_UP_TO = 5.0  # this p
+FEW = 2048  # directions, of which those of light and detector are looked up together
 DEGREE = 14  # of the polynomial that shaders have for it: 5e-7
 
 
@@ -40,8 +44,29 @@ def distribution(geom: Geometry, alpha, g) -> np.ndarray:
 def shape(geom: Geometry, alpha, g) -> np.ndarray:
     """D G/(4 cos θi cos θr) [1/sr]: the law without Fresnel."""
     width = np.sqrt(g - 1) * alpha
-    hidden_i, hidden_r = _hidden(geom.cos_i, geom.sin_i, width, g)[0], _hidden(geom.cos_r, geom.sin_r, width, g)[0]
+    (hidden_i,), (hidden_r,) = _hidden_both(geom, width, g)
     return distribution(geom, alpha, g) / (4 * (geom.cos_cos + geom.cos_r * hidden_i + geom.cos_i * hidden_r))
+
+
+def _hidden_both(geom: Geometry, width, g, derivatives: bool = False):
+    """`_hidden` of light and detector; of few directions in one call, which costs as much as the numbers in it."""
+    joined = geom.formed(_joined)
+    if joined is None or any(np.ndim(each) and np.shape(each)[-1] > 1 for each in (width, g)):
+        return tuple(
+            _hidden(cos, sin, width, g, derivatives)
+            for cos, sin in ((geom.cos_i, geom.sin_i), (geom.cos_r, geom.sin_r))
+        )
+    cos, sin = joined
+    found, count = _hidden(cos, sin, width, g, derivatives), cos.shape[-1] // 2
+    return tuple(tuple(each[..., part] for each in found) for part in (slice(count), slice(count, None)))
+
+
+@formed
+def _joined(to: Directions) -> tuple[np.ndarray, np.ndarray] | None:
+    """cos θ and sin θ of the light and behind them those of the detector; None of many directions, or of one."""
+    if np.ndim(to.cos_i) == 0 or not 1 < np.shape(to.cos_i)[-1] <= FEW or np.shape(to.cos_i) != np.shape(to.cos_r):
+        return None
+    return np.concatenate((to.cos_i, to.cos_r), axis=-1), np.concatenate((to.sin_i, to.sin_r), axis=-1)
 
 
 def _hidden(cos, sin, width, g, derivatives: bool = False):
@@ -54,24 +79,48 @@ def _hidden(cos, sin, width, g, derivatives: bool = False):
     hidden = width * before * j
     if not derivatives:
         return (hidden,)
-    return hidden, before * chebyshev.by_value(_mean, 0.0, 1, g)[0], hidden * ln_q + width * before * by_p[0]
+    mean = chebyshev.by_value(_mean, 0.0, 1, g)[0]
+    return hidden, before * mean, hidden * ln_q + width * before * by_p[0]
 
 
 @lru_cache(maxsize=256)
 def _table(g: float):
-    """N J and its derivative by g, as functions of s."""
-    p, narrow = g - 0.5, _narrow(g)
-    end = 1 / (1 + narrow)
+    """N J and its derivative by g, as functions of s: a search asks for another g at every step, and octaves of g - 3/2
+    know the series of all in them."""
+    octave = int(np.floor(np.log2(g - 1.5)))
+    cell = _octave(octave)
+    return chebyshev.Stretched(cell.at(2 * (np.log2(g - 1.5) - octave) - 1), cell.variable)
+
+
+@lru_cache(maxsize=32)
+def _octave(octave: int) -> "_Octave":
+    narrow = _narrow(1.5 + 2.0 ** (octave + 0.5))
+    series = [_series(1.5 + 2.0 ** (octave + 0.5 * (t + 1)), narrow) for t in chebyshev.nodes(OCTAVE_NODES).tolist()]
+    return _Octave(chebyshev.transform(OCTAVE_NODES) @ np.reshape(series, (OCTAVE_NODES, -1)), narrow)
+
+
+@dataclass(frozen=True, eq=False)
+class _Octave:
+    """The tables of an octave of g - 3/2."""
+
+    polynomials: np.ndarray  # of each Chebyshev coefficient, as Chebyshev's in t, -1..1 along the logarithm
+    narrow: float
+
+    def at(self, t: float) -> chebyshev.Series:
+        known = np.cos(np.arange(OCTAVE_NODES) * np.arccos(np.clip(t, -1, 1))) @ self.polynomials
+        return chebyshev.chopped(known.reshape(2, NODES))
+
+    def variable(self, s):
+        return 2 * (1 + self.narrow) * (s / (s + self.narrow)) - 1
+
+
+def _series(g: float, narrow: float) -> np.ndarray:
+    """Chebyshev coefficients of N J and of its derivative by g, (2, NODES), in s/(s + narrow) stretched to -1..1."""
+    p, end = g - 0.5, 1 / (1 + narrow)
     norm, by_norm = (each[0] for each in _integrals(p, np.zeros(1))[:2])  # 1/2N
-
-    def functions(x):
-        share = 0.5 * end * (x + 1)
-        s = narrow * share / (1 - share)
-        _, _, j, by_j = _integrals(p, s)
-        return np.stack([j, by_j - j * by_norm / norm]) / (2 * norm)
-
-    series = chebyshev.series(functions, NODES)
-    return chebyshev.Stretched(series, lambda s: (2 / end) * (s / (s + narrow)) - 1)
+    share = 0.5 * end * (chebyshev.nodes(NODES) + 1)
+    _, _, j, by_j = _integrals(p, narrow * share / (1 - share))
+    return np.stack([j, by_j - j * by_norm / norm]) / (2 * norm) @ chebyshev.transform(NODES).T
 
 
 def _narrow(g: float) -> float:
@@ -115,8 +164,7 @@ def gradient(geom: Geometry, names, *, alpha, g, n, k, scale) -> dict[str, np.nd
     """d ln D/dalpha = (2/alpha) (g u/(1 + u) - 1), d ln D/dg = g u/((g - 1)(1 + u)) - ln(1 + u), u = t/w²; and of the
     masking."""
     width = np.sqrt(g - 1) * alpha
-    hidden_i, by_width_i, by_g_i = _hidden(geom.cos_i, geom.sin_i, width, g, True)
-    hidden_r, by_width_r, by_g_r = _hidden(geom.cos_r, geom.sin_r, width, g, True)
+    (hidden_i, by_width_i, by_g_i), (hidden_r, by_width_r, by_g_r) = _hidden_both(geom, width, g, True)
     masking = geom.cos_cos + geom.cos_r * hidden_i + geom.cos_i * hidden_r
     by_width = (geom.cos_r * by_width_i + geom.cos_i * by_width_r) / masking
     by_g = (geom.cos_r * by_g_i + geom.cos_i * by_g_r) / masking

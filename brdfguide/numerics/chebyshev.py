@@ -60,7 +60,11 @@ def _side_by_side(tables: list[Stretched], x, count: int) -> list[np.ndarray]:
 
 def series(functions: Callable[[np.ndarray], np.ndarray], count: int) -> Series:
     """The Series through `count` Chebyshev nodes. Takes functions(x (nodes,)) -> (functions, nodes)."""
-    coefficients = functions(_nodes(count)) @ _transform(count).T
+    return chopped(functions(nodes(count)) @ transform(count).T)
+
+
+def chopped(coefficients: np.ndarray) -> Series:
+    """The Series of these coefficients (functions, degree + 1) without what is rounding at its end."""
     size = np.abs(coefficients)
     kept = np.flatnonzero((size > CHOP * size.max(axis=1, keepdims=True)).any(axis=0)).max()
     return Series(coefficients[:, : kept + 1])
@@ -71,20 +75,21 @@ def powers(functions: Callable[[np.ndarray], np.ndarray], degree: int) -> np.nda
 
     Takes functions(x (nodes,)) -> (nodes,).    Of a degree of 20 it keeps nine digits fewer than the series.
     """
-    return np.polynomial.chebyshev.cheb2poly(functions(_nodes(degree + 1)) @ _transform(degree + 1).T)
+    return np.polynomial.chebyshev.cheb2poly(functions(nodes(degree + 1)) @ transform(degree + 1).T)
 
 
 @cache
-def _nodes(count: int) -> np.ndarray:
+def nodes(count: int) -> np.ndarray:
+    """Zeros of Chebyshev's polynomial of this degree, descending, (count,)."""
     return np.cos(np.pi * (np.arange(count) + 0.5) / count)
 
 
 @cache
-def _transform(count: int) -> np.ndarray:
-    """Coefficients from the values at the nodes."""
-    transform = np.cos(np.pi * np.arange(count)[:, None] * (np.arange(count) + 0.5) / count) * 2 / count
-    transform[0] /= 2
-    return transform
+def transform(count: int) -> np.ndarray:
+    """What makes coefficients (count,) of values at the `nodes`, (count, count)."""
+    matrix = np.cos(np.pi * np.arange(count)[:, None] * (np.arange(count) + 0.5) / count) * 2 / count
+    matrix[0] /= 2
+    return matrix
 
 
 def by_value(table: Callable[..., Callable], x, count: int, *parameters) -> list[np.ndarray]:
