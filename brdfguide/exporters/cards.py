@@ -61,16 +61,18 @@ class Card:
 
 
 class _Chosen:
-    """The numbers of each shader for each candidate, found once though two programs share a shader."""
+    """The numbers of each shader for each candidate, and what they show, found once though two programs share a
+    shader."""
 
     def __init__(self, geom: Geometry | None):
         self.geom = geom
-        self.kept: dict[tuple[int, int], Choice] = {}
+        self.kept: dict[tuple[int, int], tuple[Choice, Shown | None]] = {}
 
-    def of(self, node: Node, surface: ColouredSurface) -> Choice:
+    def of(self, node: Node, surface: ColouredSurface) -> tuple[Choice, Shown | None]:
         key = id(node), id(surface)
         if key not in self.kept:
-            self.kept[key] = choose_node(node, surface, self.geom)
+            choice = choose_node(node, surface, self.geom)
+            self.kept[key] = choice, choice.shown(surface)
         return self.kept[key]
 
 
@@ -92,7 +94,8 @@ def cards(
     if measured is None:
         return found
     matrix, measured = shown[0].colour.matrix, _thinned(*measured)
-    return [replace(each, measured_rms_ln=off_the_measurement(each.shown, matrix, *measured)) for each in found]
+    off = {each: off_the_measurement(each, matrix, *measured) for each in {each.shown for each in found}}
+    return [replace(each, measured_rms_ln=off[each.shown]) for each in found]
 
 
 def _thinned(geom: Geometry, measured: np.ndarray) -> tuple[Geometry, np.ndarray]:
@@ -114,7 +117,7 @@ def _best(make: Callable[[ColouredSurface], Card], surfaces: Sequence[ColouredSu
 
 def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
     node = program.node(surface)
-    choice = chosen.of(node, surface)
+    choice, shown = chosen.of(node, surface)
     numbers, hexes = typed_numbers(program, node, choice)
     streak = _streak(program, node, choice)
     coated = program.coated and np.any(choice.values[node.coat])
@@ -129,7 +132,7 @@ def _card(program: Program, chosen: _Chosen, surface: ColouredSurface) -> Card:
         roles=_roles(program, node, numbers),
         model=surface.model.name,
         notes=streak + (readings(node, choice, surface, chosen.geom) if program.read_twice else ()),
-        shown=choice.shown(surface),
+        shown=shown,
     )
 
 

@@ -17,21 +17,21 @@ from .microfacet import hidden_by_slope
 
 def grained_density(geom: Geometry, alpha_x, alpha_y, axis) -> np.ndarray:
     """D, facets per solid angle [1/sr]; its projection integrates to 1."""
-    one_and_e = 1 + tilt(geom, geom.offset_from(axis), alpha_x, alpha_y)
+    one_and_e = 1 + _tilt_about(geom, alpha_x, alpha_y, axis)
     return (geom.sec2_h / one_and_e) ** 2 / (pi * alpha_x * alpha_y)
 
 
 def grained_shape(geom: Geometry, alpha_x, alpha_y, axis) -> np.ndarray:
     """D G/(4 cos θi cos θr) [1/sr] with correlated heights: a lobe without Fresnel."""
-    one_and_e = 1 + tilt(geom, geom.offset_from(axis), alpha_x, alpha_y)
-    (r_i, _, _), (r_r, _, _) = roots(geom, alpha_x, alpha_y, axis)
+    one_and_e = 1 + _tilt_about(geom, alpha_x, alpha_y, axis)
+    r_i, r_r = _roots_alone(geom, alpha_x, alpha_y, axis)
     facets = (geom.sec2_h / one_and_e) ** 2 / (2 * pi * alpha_x * alpha_y)
     return facets / (geom.cos_r * r_i + geom.cos_i * r_r)
 
 
 def grained_shape_uncorrelated(geom: Geometry, alpha_x, alpha_y, axis) -> np.ndarray:
     """The same with heights that are not correlated, D/((cos θi + R_i)(cos θr + R_r))."""
-    (r_i, _, _), (r_r, _, _) = roots(geom, alpha_x, alpha_y, axis)
+    r_i, r_r = _roots_alone(geom, alpha_x, alpha_y, axis)
     return grained_density(geom, alpha_x, alpha_y, axis) / ((geom.cos_i + r_i) * (geom.cos_r + r_r))
 
 
@@ -72,6 +72,26 @@ def _gaussian_masking(geom: Geometry, alpha_x, alpha_y, axis):
         masking = masking + 2 * hidden * p * other
         found.append((p, x, y, gaussian))
     return masking, found
+
+
+def _is_round(alpha_x, alpha_y, axis) -> bool:
+    """Whether there is no grain, so that no azimuth is needed; the same to every digit."""
+    return np.ndim(axis) == 0 and np.array_equal(alpha_x, alpha_y)
+
+
+def _tilt_about(geom: Geometry, alpha_x, alpha_y, axis):
+    """e about an axis."""
+    if _is_round(alpha_x, alpha_y, axis):
+        return geom.tan2_h / np.square(alpha_x)
+    return tilt(geom, geom.offset_from(axis), alpha_x, alpha_y)
+
+
+def _roots_alone(geom: Geometry, alpha_x, alpha_y, axis):
+    """R of light and view."""
+    if _is_round(alpha_x, alpha_y, axis):
+        both = ((geom.sin_i, geom.cos_i), (geom.sin_r, geom.cos_r))
+        return [np.sqrt(np.square(alpha_x * sin) + cos * cos) for sin, cos in both]
+    return [root for root, _, _ in roots(geom, alpha_x, alpha_y, axis)]
 
 
 def tilt(geom: Geometry, v, alpha_x, alpha_y):
