@@ -8,6 +8,7 @@ lacks, Kennedy and O'Hagan 2001, "Bayesian calibration of computer models").
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -25,6 +26,10 @@ class Places:
     strength: np.ndarray
     vectors: np.ndarray
     onward: np.ndarray
+
+    @cached_property
+    def onward_squares(self) -> np.ndarray:
+        return self.onward**2
 
     @classmethod
     def between(cls, known: np.ndarray, others: np.ndarray) -> "Places":
@@ -61,15 +66,15 @@ def foretold(places: Places, values: np.ndarray, slopes: np.ndarray, onward_slop
     probable = np.exp(evidence - evidence.max())
     total = np.log(np.mean(probable)) + evidence.max()
     probable = np.where(probable >= COUNTS * probable.max(), probable, 0.0) / probable.sum()
-    mean, square = np.zeros(len(onward_slopes)), np.zeros(len(onward_slopes))
-    for place in np.flatnonzero(probable):
-        reach = RATIOS[place] * places.onward * weight[place]
-        here = onward_slopes @ moved[place] + reach @ (q - j @ moved[place])
-        loose = onward_slopes - reach @ j
-        of_unknown = RATIOS[place] * (1 - np.sum(reach * places.onward, axis=1))
-        of_slopes = np.sum(loose * np.linalg.solve(inside[place], loose.T).T, axis=1)
-        mean += probable[place] * here
-        square += probable[place] * (here**2 + noise[place] * np.maximum(of_unknown + of_slopes, 0.0))
+    kept = np.flatnonzero(probable)
+    probable, ratio, weight, noise = probable[kept], RATIOS[kept], weight[kept], noise[kept]
+    inside, moved = inside[kept], moved[kept]
+    here = onward_slopes @ moved.T + places.onward @ (ratio[:, None] * weight * (q - moved @ j.T)).T
+    loose = onward_slopes - places.onward @ ((ratio[:, None] * weight)[:, :, None] * j)
+    of_unknown = ratio * (1 - ratio * (places.onward_squares @ weight.T))
+    of_slopes = np.sum(loose * np.linalg.solve(inside, loose.transpose(0, 2, 1)).transpose(0, 2, 1), axis=2).T
+    mean = here @ probable
+    square = (here**2 + noise * np.maximum(of_unknown + of_slopes, 0.0)) @ probable
     share = probable.sum()
     mean, square = mean / share, square / share
     return Foretold(float(total), mean, np.maximum(square - mean**2, 0.0), float(probable @ noise / share))
