@@ -27,8 +27,25 @@ def _members(folder: str) -> tuple[str, ...]:
     return tuple(sorted(file.stem.replace("_", "-") for file in files if file.stem not in NOT_MEMBERS.get(folder, ())))
 
 
+@lru_cache
+def saying(folder: str, word: str) -> tuple[str, ...]:
+    """Members whose file has a word in it, without importing any; one whose text is not there may have it."""
+    return tuple(name for name in _members(folder) if _says(HERE.joinpath(*folder.split("."), _file(name)), word))
+
+
+def _says(file: Path, word: str) -> bool:
+    try:
+        return word.encode() in file.read_bytes()
+    except OSError:
+        return True
+
+
+def _file(name: str) -> str:
+    return f"{name.replace('-', '_')}.py"
+
+
 def load(folder: str, name: str):
     """The module of member `name`. Raises InputError with the nearest names."""
     if name not in _members(folder):
         raise choices(folder.rpartition(".")[2].removesuffix("s"), name, names(folder))
-    return import_module(f".{folder}.{name.replace('-', '_')}", __package__)
+    return import_module(f".{folder}.{_file(name).removesuffix('.py')}", __package__)

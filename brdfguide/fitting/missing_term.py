@@ -103,7 +103,7 @@ def _typed(kind: str, model: Composite) -> str | None:
     """The law with a term that candidates do not grow by themselves: a cloth's sheen, a grain."""
     if kind == "sheen":
         return f"{model.name}+sheen"
-    known = {each.name for each in models.every()}
+    known = models.names()
     grained = "+".join(f"{word}-aniso" if f"{word}-aniso" in known else word for word in model.name.split("+"))
     return grained if kind == "second axis" and grained != model.name else None
 

@@ -1,8 +1,9 @@
 """Which sums are worth fitting to a surface, when nothing or only its kind is known: as the laws themselves say."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
-from .. import models
+from .. import catalog, models
 from ..errors import InputError, choices
 from . import Composite, Model
 from .facts import Candidacy
@@ -134,9 +135,12 @@ def containing(law: Model) -> list[tuple[Model, Candidacy]]:
     return [(model, asks) for model, asks in _asking() if law.name in asks.contains]
 
 
-def _asking() -> list[tuple[Model, Candidacy]]:
-    asking = [(model, model.candidacy) for model in models.every() if model.candidacy is not None]
-    return sorted(asking, key=lambda each: (each[1].order, each[0].name))
+@lru_cache
+def _asking() -> tuple[tuple[Model, Candidacy], ...]:
+    """The laws with a Candidacy, which their files name; no other is imported."""
+    laws = [catalog.load("models", name).MODEL for name in catalog.saying("models", Candidacy.__name__)]
+    asking = [(model, model.candidacy) for model in laws if model.candidacy is not None]
+    return tuple(sorted(asking, key=lambda each: (each[1].order, each[0].name)))
 
 
 def substitutes() -> list[Model]:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from brdfguide import models
+from brdfguide import catalog, models
 from brdfguide.errors import InputError
 from brdfguide.models import candidates
 from brdfguide.physics.geometry import in_plane
@@ -78,3 +78,8 @@ def test_polished_data_bring_the_laws_of_stray_light_and_the_wave_law_beside_the
     assert added == laws | {"stam", "lambertian+stam"} | {f"lambertian+{law}" for law in laws} | {
         f"{law}+mirror" for law in laws
     }, "stam has a mirror beam of its own"
+
+
+def test_a_law_that_asks_to_be_tried_says_so_in_its_own_file():
+    asking = [law.name for law in models.every() if law.candidacy is not None]
+    assert set(asking) <= set(catalog.saying("models", "Candidacy"))
