@@ -156,20 +156,23 @@ class _Observed:
     @cached_property
     def lobe_reflectance(self) -> float:
         """Share of light from near the normal that the lobe sends on, as if round; NaN where it is not resolved."""
-        found = [self._integral(theta, LOBE_DEG) for theta in self.low]
-        found = [each for each in found if np.isfinite(each)]
+        found = [each for each in self._lobes.values() if np.isfinite(each)]
         return float(np.median(found)) if found else np.nan
 
     @cached_property
     def whole_reflectance(self) -> float:
         """Share that comes back at all."""
         found = []
-        for theta in self.low:
+        for theta, lobe in self._lobes.items():
             beyond = self._at(theta, lambda r: self.from_mirror[r] > LOBE_DEG)
-            lobe = self._integral(theta, LOBE_DEG)
             if len(beyond) and np.isfinite(lobe):
                 found.append(lobe + np.pi * np.mean(self.grey[beyond]))
         return float(np.median(found)) if found else np.nan
+
+    @cached_property
+    def _lobes(self) -> dict[float, float]:
+        """The integral over the lobe of each low incidence."""
+        return {theta: self._integral(theta, LOBE_DEG) for theta in self.low}
 
     def _integral(self, theta: float, radius: float) -> float:
         """∫ (f - least f) cos θr dω around the mirror direction from the mean profile f(d); NaN where it is too coarse

@@ -155,9 +155,11 @@ def opened(path) -> tuple[Format, Source]:
 
 def _of_its_size(stream, head: bytes) -> tuple[Format, bytearray] | None:
     """The format of a binary file that none claims by its first bytes, and its content, where its size is one's own."""
+    if not NO_TEXT.search(head):
+        return None
     every, plain = members(), _open.plain_head(head)
     claimed = any(each.recognises(plain) for each in every if each.name != "table")
-    if claimed or not NO_TEXT.search(head) or _unread.what_instead(plain):
+    if claimed or _unread.what_instead(plain):
         return None
     most = max(each.exact_bytes or 0 for each in every)
     data = bytearray(head)

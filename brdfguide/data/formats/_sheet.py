@@ -38,6 +38,7 @@ STYLES = (
     (None, ","),
     ("|", ","),
 )
+DIGITS = frozenset("0123456789")
 LOOKED_AT = 40  # data lines that decide the style
 
 
@@ -73,7 +74,9 @@ def read_sheet(source: Source, headerless: tuple[str, ...] | None = None) -> She
     comments, comment_lines, content = [], [], []
     for number, text in enumerate(source.lines, 1):
         stripped = text.strip()
-        if stripped.startswith(COMMENTS) and not _is_row_of_units(text):
+        if stripped[:1] in DIGITS:
+            content.append((number, text))
+        elif stripped.startswith(COMMENTS) and not _is_row_of_units(text):
             comments.append(stripped.lstrip("#%!/ \t"))
             comment_lines.append(number)
         elif stripped and stripped.strip(",;\t |") != "":

@@ -93,7 +93,8 @@ class Source:
 
 def with_e(text: str) -> str:
     """Fortran's 1.5D-03 as 1.5e-03, where the text has such numbers."""
-    marked = any(mark in text for mark in ("D+", "D-", "d+", "d-"))  # a pattern takes far longer to find nothing
+    last = max(text.rfind("D"), text.rfind("d")) + 2  # in most files no letter stands below the names
+    marked = any(mark in text[:last] for mark in ("D+", "D-", "d+", "d-"))  # a pattern takes far longer to find nothing
     return FORTRAN.sub("e", text) if marked and DECIMAL_D.search(text) else text
 
 
