@@ -60,7 +60,12 @@ READING = {
     "angle-from-mirror": Flag("The detector's angle is counted from the mirror direction.", option="--columns"),
     "angle-function": Flag("A column holds the cosine or sine of an angle."),
     "angle-unit": Flag("Degrees or radians, and why this was taken.", option="--unit"),
+    "azimuth-clockwise": Flag("Azimuths count clockwise, as a name says: read with the opposite sign."),
     "azimuth-from-phase": Flag("Azimuths follow from the angle between light and detector."),
+    "azimuth-of-detector": Flag("Zeniths with a sign: the azimuth is the detector's plane.", option="--columns"),
+    "azimuth-of-sample": Flag(
+        "Zeniths with a sign: the azimuth is that of the light on the sample.", option="--rotation-sense"
+    ),
     "azimuth-turned": Flag("The phase angle says that azimuths count from the mirror direction.", option="--columns"),
     "below-horizon": Flag("Directions at or below the horizon were dropped."),
     "blocked-retro-zone": Flag("Zeros around the source: the lamp stood in the detector's way."),

@@ -15,6 +15,7 @@ from .vocabulary import (
     SPELT,
     SPELT_ALONE,
     STERADIAN,
+    TURNING,
     VAGUE,
     WEAK_RULES,
 )
@@ -78,8 +79,8 @@ apart which are repeated with other values, is named, and one of the last two op
 have no effect on a file is refused.
 
 Titles and comments count too: `theta_i: 45`, `AOI = 45 deg`, `wavelength_nm: 633`, `lambda = 532 nm`,
-`2-5.7 um band`, `quantity: brf`, `scale: 0.001`, `angles in radians`, and a quantity by its words where the values'
-name has none (`BRF values of ...`).
+`2-5.7 um band`, `quantity: brf`, `scale: 0.001`, `angles in radians`, `sample rotated clockwise`, and a quantity by its
+words where the values' name has none (`BRF values of ...`).
 """
 ANGLES = (  # columns, and what they mean
     (
@@ -95,7 +96,16 @@ ANGLES = (  # columns, and what they mean
     ),
     ("theta_i or beta_i, beta_r, perhaps alpha_r", "direction cosines along and across the plane of incidence"),
     ("x_i, y_i, x_r, y_r, perhaps z_i, z_r", "components of both directions"),
-    ("rotation, beside any of them", "the sample turned by +psi: light at -psi of the sample"),
+    (
+        "theta_i, theta_r with a sign and phi_i",
+        "scans in the plane of incidence, the light at that azimuth of the sample",
+    ),
+    (
+        "theta_i, theta_r with a sign and a lone `azimuth` or `phi`",
+        "the same; azimuth from light to detector where the mirror direction is not as bright under each, and where "
+        "its name is `relative`",
+    ),
+    ("rotation, beside any of them", "the sample turned by +psi: light at -psi of the sample; clockwise, at +psi"),
     (
         "theta_r and a column for each theta_i, or the reverse",
         "`30 deg`, `theta_i=30`, `BRDF @ 30 deg 550 nm`, `15`",
@@ -105,7 +115,9 @@ ABOUT_ANGLES = """
 Both directions point away from the surface; the mirror direction is at phi_r - phi_i = 180 degrees. What a table gives
 besides one of these ways is left out, or checked where it can be (a phase angle against azimuths). A column without a
 unit has that of the others, else of a comment, else degrees or radians as the values tell; where they do not, `--unit`
-is asked for.
+is asked for. Azimuths and rotations count counter-clockwise, seen from above, unless a name says otherwise:
+{clockwise}, as in `rotation (cw)`, or of a rotation a comment. `--rotation-sense` comes before both, and makes a lone
+`azimuth` a rotation.
 """
 DOUBTS = """## Doubts
 
@@ -122,7 +134,8 @@ def columns_page() -> str:
     parts = [
         HEAD,
         _roles(),
-        _table("Angles", ("columns", "meaning"), ANGLES) + ABOUT_ANGLES,
+        _table("Angles", ("columns", "meaning"), ANGLES)
+        + ABOUT_ANGLES.format(clockwise=" or ".join(f"`{word}`" for word in TURNING["cw"].split())),
         _units(),
         _quantities(),
         DOUBTS.format(confidence=confidence),

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from .tokens import Token, tokens
+from .turning_sense import taken_sense
 from .vocabulary import (
     ANGLE_UNIT_OF,
     COLOURS,
@@ -40,6 +41,7 @@ class Column:
     weak: bool = False  # the role is only taken where no other column has it
     form: str = ""  # of an angle: as it is, elevation, cos, sin
     unit: str | None = None  # of an angle or a wavelength
+    sense: str | None = None  # in which an azimuth or a rotation is counted: cw, ccw
     quantity: str | None = None
     vague: bool = False  # a value whose name hardly says that it is a BRDF
     scale: str = ""  # of a value or a doubt: as it is, %, dB, log10, ln
@@ -98,7 +100,9 @@ class _Name:
 
     def facts(self, colours: bool) -> dict:
         self._naught()
-        found = self._coverage() | self._steradian() | self._mueller() | self._numbers()
+        sense, self.left = taken_sense(self.left)
+        found = {} if sense is None else {"sense": sense}
+        found |= self._coverage() | self._steradian() | self._mueller() | self._numbers()
         found |= self._unit() | self._scale()
         if colours:
             found |= self._colour()

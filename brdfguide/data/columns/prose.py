@@ -1,4 +1,4 @@
-"""What titles and comments say of a table: wavelength, incidence, quantity, unit of the angles."""
+"""What titles and comments say of a table: wavelength, incidence, quantity, unit of the angles, sense of rotations."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -6,6 +6,7 @@ from itertools import pairwise
 from .facts import spelt_out
 from .grammar import understood
 from .tokens import Token
+from .turning_sense import taken_sense
 from .vocabulary import ANGLE_UNIT_OF, LENGTH_UNIT_OF, LENGTH_UNITS, SPOKEN_OF, senses_of
 
 MOST_LINES = 2000  # of titles and comments; data do not begin later
@@ -125,6 +126,13 @@ def angle_unit_in(lines) -> str | None:
             continue
         found |= {ANGLE_UNIT_OF[token.text] for token in row if token.text in ANGLE_UNIT_OF}
     return found.pop() if len(found) == 1 else None
+
+
+def sense_in(lines) -> str | None:
+    """`psi: rotation of the sample, clockwise`: the one sense, cw or ccw, that comments give for its rotation."""
+    rows = [spelt_out(line) for line in lines[:MOST_LINES]]
+    found = {taken_sense(row)[0] for row in rows if any("turn" in senses_of(token.text) for token in row)}
+    return next(iter(found - {None})) if len(found - {None}) == 1 else None
 
 
 def scale_in(lines) -> float | None:

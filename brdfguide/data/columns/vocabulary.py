@@ -60,6 +60,10 @@ SENSES = {
     ),
 }
 
+# in which sense azimuths and rotations are counted, seen from above -> how it is written
+TURNING = {"cw": "cw clockwise", "ccw": "ccw acw counterclockwise anticlockwise"}
+AGAINST = word_set("counter anti")  # before clockwise
+
 # one word of the trade -> the plain ones that it stands for
 SPELT = {
     "aoi": "angle of incidence",
@@ -338,6 +342,7 @@ def _units_by_word(table) -> dict[str, str]:
 SENSES_OF = _senses_by_word()
 ANGLE_UNIT_OF = _units_by_word(ANGLE_UNITS)
 LENGTH_UNIT_OF = _units_by_word(LENGTH_UNITS)
+SENSES_OF_TURNING = {word: sense for sense, text in TURNING.items() for word in text.split()}
 SCALE_OF = {word: scale for scale, text in SCALES.items() for word in text.split()}
 # phrase as a tuple of words -> quantity; None where the words are too vague to be one
 QUANTITY_OF: dict[tuple[str, ...], str | None] = {(word,): None for word in VAGUE}
@@ -346,7 +351,7 @@ SPOKEN_OF = {tuple(phrase.split()): name for name, each in QUANTITIES.items() fo
 QUANTITY_WORDS = frozenset(word for phrase in QUANTITY_OF for word in phrase if len(word) > 1 or len(phrase) == 1)
 KNOWN = frozenset(
     {*SENSES_OF, *SPELT, *SPELT_ALONE, *ANGLE_UNIT_OF, *LENGTH_UNIT_OF, *SCALE_OF, *STERADIAN, *COLOURS}
-    | {*QUANTITY_WORDS, "pi", "per", "coverage", "factor"}
+    | {*SENSES_OF_TURNING, *AGAINST, *QUANTITY_WORDS, "pi", "per", "coverage", "factor"}
 )
 
 

@@ -1,24 +1,21 @@
 """Directions of light and detector out of columns of angles, in every convention that tables have."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...finding import Finding
 from ..columns import prose
 from ..columns.facts import Column
-from ..columns.vocabulary import ANGLE_UNITS
 from . import _half_difference, _phase
+from ._angle_units import OF_DIRECTIONS, in_degrees
+from ._azimuths import brightness, counter_clockwise, role_of_the_azimuth
 from ._roles import Assigned, missing
 from ._rotations import light_for
 from ._sheet import Sheet
 from .format import Options, Source, check_angle, check_zenith, degrees
 
-OF_DIRECTIONS = (
-    "theta_i", "phi_i", "theta_r", "phi_r", "dphi", "theta_h", "phi_h", "theta_d", "phase", "from_mirror", "rotation",
-)  # fmt: skip
 OF_COSINES = ("beta_i", "beta_r", "alpha_r", "beta_from_mirror", "x_i", "y_i", "z_i", "x_r", "y_r", "z_r")
-UNNAMED = ("theta_i", "theta_r", "theta_h", "theta_d")  # zeniths whose values tell degrees from radians
 
 
 @dataclass
@@ -30,6 +27,7 @@ class Angles:
     raw: dict[str, np.ndarray]
     notes: list[Finding]
     constant: frozenset[str]  # roles that one number for the whole table has
+    sense: tuple[str, str] | None = None  # of the sample's rotation, cw or ccw, and what says so
     used: set[str] = field(default_factory=set)
 
     def has(self, *roles: str) -> bool:
@@ -50,6 +48,7 @@ class RowDirections:
     azimuths: bool  # whether the table gives them
     used: set[str]
     unit: str
+    azimuth: str  # role of the column that its name calls an azimuth
 
 
 def row_directions(
@@ -59,12 +58,16 @@ def row_directions(
     named = ((role, given.one(role)) for role in (*OF_DIRECTIONS, *OF_COSINES))
     columns = {role: column for role, column in named if column is not None}
     _no_text(source, table, columns.values())
-    raw, said = _in_degrees(source, table, columns, options, unit, notes)
+    raw, said = in_degrees(source, table, columns, options, unit, notes)
     constant = {role: value for role, value in given.constants.items() if role in (*OF_DIRECTIONS, "phi_d")}
     constant = {"dphi" if role == "phi_d" else role: value for role, value in constant.items()}
     constant = {role: value for role, value in constant.items() if role not in raw}
     raw |= {role: np.full(len(table.values), value) for role, value in constant.items()}
-    angles = Angles(source, table, raw, notes, frozenset(constant))
+    counter_clockwise(columns, raw, notes)
+    azimuth = role_of_the_azimuth(columns, raw, lambda: brightness(table, given), options, notes)
+    if azimuth != "dphi":
+        raw[azimuth] = raw.pop("dphi")
+    angles = Angles(source, table, raw, notes, frozenset(constant), _sense(table, columns))
     found, azimuths = _made(angles, options)
     found = np.stack(np.broadcast_arrays(*found))
     for role, each in zip(("theta_i", "phi_i", "theta_r", "phi_r"), found, strict=True):
@@ -78,7 +81,8 @@ def row_directions(
     if np.any(found[0, whole] < 0):
         text = "theta_i is negative: the light comes from the azimuth opposite to phi_i"
         notes.append(Finding("negative-theta-i", text, option="--mirror-side"))
-    return RowDirections(_with_signs(found[:, whole], not azimuths, options), whole, azimuths, angles.used, said)
+    signed = _with_signs(found[:, whole], not azimuths, options)
+    return RowDirections(signed, whole, azimuths, angles.used, said, azimuth)
 
 
 def _no_text(source: Source, table: Sheet, columns) -> None:
@@ -88,99 +92,6 @@ def _no_text(source: Source, table: Sheet, columns) -> None:
     if bad:
         line, name, text = min(bad)
         raise source.error(f"column '{name[:60]}': found '{text[:40]}', wanted a number", line)
-
-
-# --- units ------------------------------------------------------------------------------------------------
-
-
-def _in_degrees(source, table, columns: dict[str, Column], options: Options, unit: str | None, notes):
-    """Each column of angles in degrees, cosines and components as they are; and the units, and how they are known."""
-    raw = {role: table.values[:, column.place] for role, column in columns.items()}
-    plain = {role: raw[role] for role in columns if role in OF_DIRECTIONS and columns[role].form in ("", "elevation")}
-    units, said = _units(source, {role: columns[role] for role in plain}, plain, table, options, unit, notes)
-    if units:
-        said = f"angles in {' and '.join(sorted(set(units.values())))}, {said}"
-    for role in plain:
-        factor = ANGLE_UNITS[units[role]][0]
-        if units[role] == "rad":
-            raw[role] = degrees(raw[role])
-        elif factor != 1:
-            with np.errstate(over="ignore", invalid="ignore"):
-                raw[role] = np.round(raw[role] * factor, 9)
-        if columns[role].form == "elevation":
-            raw[role] = 90.0 - raw[role]
-            notes.append(Finding("elevation", f"'{columns[role].name}' is an elevation: zenith angle 90 minus it"))
-    for role, column in columns.items():
-        if column.form in ("cos", "sin"):
-            raw[role] = _of_function(source, table, column)
-            notes.append(Finding("angle-function", f"'{column.name}' is the {_FUNCTION[column.form]} of {role}"))
-    return raw, said
-
-
-_FUNCTION = {"cos": "cosine", "sin": "sine"}
-
-
-def _of_function(source, table, column: Column) -> np.ndarray:
-    """Degrees out of a cosine or sine. Raises InputError beyond 1."""
-    values = table.values[:, column.place]
-    bad = np.flatnonzero(np.abs(values) > 1 + 1e-6)
-    if len(bad):
-        text = f"column '{column.name}': found {values[bad[0]]:g}; a {_FUNCTION[column.form]} lies within -1..1"
-        raise source.error(text, int(table.lines[bad[0]]))
-    inverse = np.arccos if column.form == "cos" else np.arcsin
-    return degrees(inverse(np.clip(values, -1, 1)))
-
-
-def _units(source, columns, raw, table, options: Options, unit: str | None, notes) -> tuple[dict[str, str], str]:
-    """The unit of each column of angles, and how it is known: the option, its name, the others, comments or values."""
-    if not columns:
-        if options.unit:
-            raise source.error(f"--unit {options.unit} has no effect: no column holds angles as such")
-        return {}, ""
-    if options.unit:
-        return dict.fromkeys(columns, options.unit), "as --unit says"
-    named = {role: column.unit for role, column in columns.items() if column.unit in ANGLE_UNITS}
-    if len(named) == len(columns):
-        return named, "as the names say"
-    if len(set(named.values())) > 1:
-        raise source.error(
-            "some angle columns are named in degrees and some in radians; say which with --unit deg or --unit rad"
-            if set(named.values()) == {"deg", "rad"}
-            else f"some angle columns are named in {' and '.join(sorted(set(named.values())))}, some in none; say "
-            f"which with --unit"
-        )
-    if named:
-        return dict.fromkeys(columns, next(iter(named.values()))), "as the names say"
-    if unit:
-        return dict.fromkeys(columns, unit), "as the header says"
-    if commented := prose.angle_unit_in(table.comments):
-        return dict.fromkeys(columns, commented), "as a comment says"
-    return dict.fromkeys(columns, _inferred(source, raw, notes)), "from their values"
-
-
-def _inferred(source, raw, notes) -> str:
-    """`deg` or `rad`, from the values."""
-    zeniths = [raw[role] for role in UNNAMED if role in raw] or list(raw.values())
-    theta = np.abs(np.concatenate(zeniths or [np.zeros(0)]))
-    theta = theta[np.isfinite(theta)]
-    azimuth = np.concatenate([raw[role] for role in raw if role not in UNNAMED] or [np.zeros(1)])
-    largest, turn = float(theta.max(initial=0.0)), float(np.abs(azimuth[np.isfinite(azimuth)]).max(initial=0.0))
-    if not len(theta) or largest > 1.58 or turn > 6.3:
-        return "deg"
-    as_degrees, as_radians = _share_of_quarters(theta), _share_of_quarters(np.degrees(theta))
-    if as_radians > 0.9 and as_degrees < 0.5 or (largest > 0.5 and 3.1 < turn < 6.3):
-        text = f"no angle exceeds {max(largest, turn):.3g}: taken as radians"
-        notes.append(Finding("radians-inferred", text, option="--unit deg"))
-        return "rad"
-    if largest < 1e-9:
-        return "deg"
-    text = f"no angle exceeds {max(largest, turn):.3g} and no column names a unit; say --unit deg or --unit rad"
-    raise source.error(text)
-
-
-def _share_of_quarters(values) -> float:
-    """How many are multiples of a quarter, as instruments step."""
-    return float(np.mean(np.abs(values * 4 - np.round(values * 4)) < 4e-3))
 
 
 # --- conventions ------------------------------------------------------------------------------------------
@@ -270,7 +181,9 @@ def _with_azimuths(angles: Angles, theta_i, theta_r):
         return _by_phase(angles, (theta_i, phi_i, theta_r, phi_i + angles.take("dphi"))), True
     if "phase" in raw:
         return (theta_i, phi_i, np.abs(theta_r), phi_i + _azimuth_of_phase(angles, theta_i, theta_r)), True
-    text = "no azimuth column: taken as a scan in the plane of incidence"
+    one = not any(angles.has(role) for role in ("phi_i", "rotation"))
+    missed = "no azimuth column: taken as a scan" if one else "no azimuth of the detector: taken as scans"
+    text = f"{missed} in the plane of incidence"
     angles.note("in-plane-assumed", text, option="--columns")
     return (theta_i, phi_i, theta_r, phi_i + 180.0), False
 
@@ -372,10 +285,19 @@ def _turned(angles: Angles, found, options: Options):
     if not angles.has("rotation"):
         return found
     psi = angles.take("rotation")
-    sign, how = light_for(options)
+    sign, how = light_for(options, angles.sense)
     if np.nanmax(psi, initial=-np.inf) > np.nanmin(psi, initial=np.inf) or np.any(psi):
         angles.note(how.code, f"{how.text}, the detector with it", option=how.option)
     return theta_i, phi_i + sign * psi, theta_r, phi_r + sign * psi
+
+
+def _sense(table: Sheet, columns: dict[str, Column]) -> tuple[str, str] | None:
+    """The sense of the sample's rotation, and what says so: the name of its column or a comment."""
+    column = columns.get("rotation")
+    if column is not None and column.sense:
+        return column.sense, f"'{column.name[:40]}'"
+    commented = prose.sense_in(table.comments) if column is not None else None
+    return (commented, "a comment") if commented else None
 
 
 def _with_signs(found, signed: bool, options: Options) -> np.ndarray:
@@ -391,7 +313,9 @@ def _with_signs(found, signed: bool, options: Options) -> np.ndarray:
 
 
 def used_columns(given: Assigned, found: RowDirections) -> Assigned:
-    """The columns with those of angles that no direction was made of as ignored."""
+    """The columns with the role that the azimuth has, and those of angles that no direction was made of as ignored."""
+    renamed = (replace(each, role=found.azimuth) if each.role == "dphi" else each for each in given.columns)
+    given = replace(given, columns=tuple(renamed))
     for role in (*OF_DIRECTIONS, *OF_COSINES):
         if role not in found.used and given.one(role) is not None:
             given = given.without(role, "the other angles tell the directions already")

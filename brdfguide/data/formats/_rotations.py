@@ -30,10 +30,15 @@ def turns_of(turned, rotations, lit, options: Options) -> tuple[np.ndarray, np.n
     return sign * np.asarray(rotations, float), turned, [note, how]
 
 
-def light_for(options: Options) -> tuple[float, Finding]:
-    """The sign that makes a rotation of the sample the azimuth of the light, and the note on it."""
-    if options.rotation_sense == "cw":
-        text = "the sample was turned clockwise, as --rotation-sense says: light at +psi of it"
+def light_for(options: Options, stated: tuple[str, str] | None = None) -> tuple[float, Finding]:
+    """The sign that makes a rotation of the sample the azimuth of the light, and the note on it.
+
+    `stated` is the sense that the file gives, cw or ccw, and what says so; --rotation-sense comes before it.
+    """
+    sense, who = (options.rotation_sense, "--rotation-sense") if options.rotation_sense else stated or ("ccw", "")
+    said = f", as {who} says" if who else ""
+    if sense == "cw":
+        text = f"the sample was turned clockwise{said}: light at +psi of it"
         return 1.0, Finding("sample-rotation", text, option="--rotation-sense")
-    text = "the sample was turned by +psi, counter-clockwise: the light stands at -psi of it"
+    text = f"the sample was turned by +psi, counter-clockwise{said}: the light stands at -psi of it"
     return -1.0, Finding("sample-rotation", text, option="--rotation-sense")

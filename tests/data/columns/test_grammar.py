@@ -181,6 +181,28 @@ def test_an_angle_may_be_given_by_its_elevation_or_a_function(name, form):
     assert understood(name).form == form
 
 
+@pytest.mark.parametrize(
+    ("name", "role", "sense"),
+    [
+        ("rotation (cw)", "rotation", "cw"),
+        ("psi [deg, clockwise]", "rotation", "cw"),
+        ("sample_rotation_cw", "rotation", "cw"),
+        ("RotationCW", "rotation", "cw"),
+        ("stage angle (+CW) / deg", "rotation", "cw"),
+        ("rotation (positive clockwise, seen from above)", "rotation", "cw"),
+        ("psi (counter-clockwise)", "rotation", "ccw"),
+        ("sample azimuth (anti-clockwise)", "rotation", "ccw"),
+        ("rotation ccw", "rotation", "ccw"),
+        ("phi_i [° clockwise]", "phi_i", "cw"),
+        ("azimuth (cw)", "dphi", "cw"),
+        ("psi", "rotation", None),
+        ("cw laser", None, None),
+    ],
+)
+def test_a_turn_says_in_which_sense_it_counts(name, role, sense):
+    assert (understood(name).role, understood(name).sense) == (role, sense)
+
+
 def test_letters_mean_what_they_mean_beside_others():
     assert [column.role for column in columns_of(["i", "e", "g", "I/F"])] == ["theta_i", "theta_r", "phase", "value"]
     assert [column.role for column in columns_of(["theta_s", "theta_v", "brdf"])] == ["theta_i", "theta_r", "value"]

@@ -76,6 +76,13 @@ def test_the_unit_of_all_angles():
     assert prose.angle_unit_in(["angles in deg or rad"]) is None
 
 
+def test_the_sense_of_rotations():
+    assert prose.sense_in(["psi: rotation of the sample, clockwise seen from above"]) == "cw"
+    assert prose.sense_in(["sample rotated counter-clockwise"]) == "ccw"
+    assert prose.sense_in(["rotation of the sample", "cw laser"]) is None
+    assert prose.sense_in(["rotation cw", "turned ccw"]) is None
+
+
 def test_comments_of_any_length_take_a_moment():
     for text in (
         "wavelength" + " " * 10**6 + "x",

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from brdfguide import models
 from brdfguide.data import formats
 from brdfguide.errors import InputError
 from brdfguide.physics.geometry import Geometry, rows
@@ -186,6 +187,70 @@ def test_the_rotation_of_the_sample_is_kept_as_the_azimuth_of_the_light(tmp_path
     check(measurement[::2], PLANE, IN_PLANE)
     check(measurement[1::2], PLANE, IN_PLANE)
     assert "sample-rotation" in codes(measurement)
+
+
+TURNS = (0.0, 30.0, 60.0, 90.0, 120.0, 150.0)
+
+
+def grained(theta_i, phi_i, theta_r, phi_r):
+    """A metal's lobe, three times as wide along azimuth 37 as across it."""
+    geom = rows(Geometry.from_degrees(theta_i, phi_i, np.abs(theta_r), np.where(theta_r < 0, phi_r + 180, phi_r)))
+    values = {"alpha_x": 0.3, "alpha_y": 0.1, "axis": np.radians(37.0), "n": 1.0, "k": 6.0}
+    return models.term("ggx-aniso")(geom, **values)[:, 0]
+
+
+def scans(name: str, brdf, comment: str = "") -> str:
+    """A table of scans with theta_r from -70 to 70 under a column of azimuths."""
+    turn, theta_i, theta_r = (
+        np.repeat(TURNS, len(PLANE_I)),
+        *(np.tile(each.ravel(), 6) for each in (PLANE_I, PLANE_R)),
+    )
+    made = [turn, theta_i, theta_r, brdf(turn, theta_i, theta_r)]
+    return comment + table([name, "theta_i", "theta_r", "brdf"], *made)
+
+
+def of_sample(turn, theta_i, theta_r):
+    return grained(theta_i, turn, theta_r, turn + 180)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "sign", "code"),
+    [
+        ("phi_i", {}, 1, "in-plane-assumed"),
+        ("azimuth", {}, 1, "azimuth-of-sample"),
+        ("phi", {}, 1, "azimuth-of-sample"),
+        ("azimuth (cw)", {}, -1, "azimuth-clockwise"),
+        ("azimuth", {"rotation_sense": "ccw"}, -1, "sample-rotation"),
+        ("azimuth", {"rotation_sense": "cw"}, 1, "sample-rotation"),
+        ("psi", {}, -1, "sample-rotation"),
+        ("sample azimuth", {}, -1, "sample-rotation"),
+        ("rotation (cw)", {}, 1, "sample-rotation"),
+        ("rotation (cw)", {"rotation_sense": "ccw"}, -1, "sample-rotation"),
+        ("rotation ccw", {"rotation_sense": "cw"}, 1, "sample-rotation"),
+    ],
+)
+def test_an_azimuth_beside_signed_zeniths_is_that_of_the_sample(tmp_path, name, options, sign, code):
+    found = read(tmp_path, scans(name, of_sample), **options)
+    assert np.unique(found.geom.phi_i_deg).tolist() == sorted(sign * each + 0.0 for each in TURNS)
+    assert np.max(np.abs(np.remainder(found.geom.phi_deg + 90, 180) - 90)) < 1e-9  # in the plane of incidence
+    assert code in codes(found)
+
+
+def test_a_comment_says_in_which_sense_the_sample_turned(tmp_path):
+    found = read(tmp_path, scans("psi", of_sample, "# sample rotated clockwise by psi\n"))
+    assert np.unique(found.geom.phi_i_deg).tolist() == list(TURNS)
+    assert any("as a comment says" in each.text for each in found.findings)
+
+
+def test_an_azimuth_under_which_the_mirror_direction_is_lost_is_the_detectors(tmp_path):
+    def of_detector(turn, theta_i, theta_r):
+        return grained(theta_i, 0.0, theta_r, turn)
+
+    found = read(tmp_path, scans("azimuth", of_detector))
+    assert np.all(found.geom.phi_i_deg == 0) and "azimuth-of-detector" in codes(found)
+    assert len(np.unique(np.round(found.geom.phi_deg))) == 12
+    told = read(tmp_path, scans("azimuth", of_sample), columns="dphi=azimuth")
+    assert np.all(told.geom.phi_i_deg == 0) and len(np.unique(np.round(told.geom.phi_deg))) == 12
 
 
 def test_a_column_for_each_incidence_or_each_reflected_angle(tmp_path):
