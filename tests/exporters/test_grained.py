@@ -162,6 +162,24 @@ def test_a_table_under_rotations_is_read_back_with_the_same_grain(target, tmp_pa
     np.testing.assert_allclose(streak(made.statement.shown)[:2], streak(surface.rgb)[:2], rtol=0.3)
 
 
+def test_azimuths_that_are_closer_near_the_mirror_direction_are_read_alike(tmp_path):
+    """About the normal a lobe moves with the incidence: where it stands, close azimuths count."""
+    surface, near = brushed(alpha_x=0.5, alpha_y=0.25), ((40.0, 10.0), (180.0, 35.0))
+    levels = [turned_goniometric.Steps(45.0, 20.0, azimuth, 10.0) for azimuth in (35.0, near)]
+    assert levels[1].azimuths().tolist() == [0, 35, 70, 105, *range(140, 221, 10), 255, 290, 325]
+    nodes = [
+        turned_goniometric.turned_table_of("speos-anisotropic", surface, None, [each], several=False) for each in levels
+    ]
+    off = [float(re.search(r"within ([\d.e+]+) %", each.statement.notes[0])[1]) for each in nodes]
+    assert off[1] < 0.8 * off[0]
+    (tmp_path / "grain.anisotropicbsdf").write_text(formats.write("speos-anisotropic", nodes[1].measurement)[0])
+    found = formats.read(tmp_path / "grain.anisotropicbsdf")
+    some = found[found.geom.theta_r_deg[:, 0] < 85]
+    assert len(np.unique(np.round(some.geom.phi_deg))) == 16
+    np.testing.assert_allclose(some.brdf[:, 0], surface.rgb(some.geom)[:, 0], rtol=1e-5)
+    np.testing.assert_allclose(nodes[1].statement.shown(some.geom), surface.rgb(some.geom), rtol=1e-5)
+
+
 def test_rotations_are_added_until_a_linear_reader_is_close():
     surface = brushed(alpha_x=0.5, alpha_y=0.35)
     steps = [turned_goniometric.Steps(rotation, 10.0, 15.0) for rotation in (60.0, 15.0, 7.5)]

@@ -61,7 +61,7 @@ def role_of_the_azimuth(
         notes.append(Finding("azimuth-of-detector", text, option="--columns"))
         return "dphi"
     text = f"{how} is the light's azimuth on the sample: each scan lies in the plane of incidence"
-    consequence = "--rotation-sense says that the sample was turned by it, --columns dphi= that the detector was"
+    consequence = f"--columns dphi={name[:40]} takes it as the detector's"
     notes.append(Finding("azimuth-of-sample", text, consequence=consequence, option="--rotation-sense"))
     return "phi_i"
 

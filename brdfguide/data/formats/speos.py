@@ -147,9 +147,9 @@ def write(measurement: Measurement) -> tuple[str, list[str]]:
     grid = product_grid(measurement, about_mirror=False, what="Speos")
     azimuth, places = grid.whole_turn(180.0)
     azimuth, places = np.append(azimuth, azimuth[0] + 360.0), np.append(places, places[0])
+    tables = np.swapaxes(grid.values[..., 0], -1, -2)[..., places]  # (rotations, incidences, polars, azimuths)
     # what is written is what is scaled to the total
-    cells = np.vectorize(value)(np.swapaxes(grid.values[..., 0][:, :, places], -1, -2))
-    totals = total(grid.polar, azimuth, cells[0].astype(float))
+    totals = total(grid.polar, azimuth, np.vectorize(value)(tables[0]).astype(float))
     brightest = int(np.argmax(totals))
     if not totals[brightest] > 0:
         raise InputError(f"{measurement.name}: it scatters nothing, and Speos scales its tables to what is scattered")
@@ -158,9 +158,10 @@ def write(measurement: Measurement) -> tuple[str, list[str]]:
     lines.append("\t".join(map(angle, grid.rotations)))
     lines += [f"{len(grid.theta_i)}", "\t".join(map(angle, grid.theta_i))] * len(grid.rotations)
     lines += [f"{angle(grid.theta_i[brightest])}\t0", "", "1", f"{nm:.9g}\t{percent}"]
-    for table in cells.reshape(-1, *cells.shape[2:]):
-        lines += [f"{len(grid.polar)} {len(azimuth)}", "\t" + "\t".join(map(angle, azimuth))]
-        lines += ["\t".join([angle(theta), *row]) for theta, row in zip(grid.polar, table, strict=True)]
+    head = [f"{len(grid.polar)} {len(azimuth)}", "\t" + "\t".join(map(angle, azimuth))]
+    for table in tables.reshape(-1, *tables.shape[2:]):
+        rows = (map(value, row.tolist()) for row in table)
+        lines += [*head, *("\t".join([angle(theta), *row]) for theta, row in zip(grid.polar, rows, strict=True))]
     return "\n".join(lines) + "\n", list(grid.sentences)
 
 

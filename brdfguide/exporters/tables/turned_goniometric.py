@@ -30,16 +30,31 @@ TURNED_DEG = (0.0, 45.0, 90.0, 135.0)  # under which a width is looked for, and 
 @dataclass(frozen=True)
 class Steps:
     """Steps of rotation, incidence and azimuth [deg]; of the polar angle about the normal, None about the mirror
-    direction."""
+    direction. Azimuths may have several: each up to so far [deg] from the mirror direction's, where a lobe is."""
 
     rotation: float
     theta_i: float
-    azimuth: float
+    azimuth: float | tuple[tuple[float, float], ...]  # a step, or (up to, step)
     polar: float | None = None
+
+    def azimuths(self) -> np.ndarray:
+        """Nodes [deg] from 0 within a turn."""
+        if not isinstance(self.azimuth, tuple):
+            return np.arange(0.0, 360.0, self.azimuth)
+        away = [0.0]
+        for end, step in self.azimuth:
+            away.extend(np.arange(away[-1] + step, end + step / 2, step))
+        return np.unique(np.remainder(180.0 + np.array([*away, *(-each for each in away)]), 360.0))
 
 
 ABOUT_MIRROR = (Steps(15.0, 5.0, 10.0), Steps(7.5, 5.0, 5.0), Steps(5.0, 5.0, 5.0))
-ABOUT_NORMAL = (Steps(15.0, 10.0, 10.0, 5.0), Steps(7.5, 5.0, 5.0, 2.5))
+# about the normal a lobe moves with the incidence, so that this step and that of azimuth near the lobe count most
+ABOUT_NORMAL = (
+    Steps(15.0, 10.0, 10.0, 5.0),
+    Steps(7.5, 5.0, 5.0, 2.5),
+    Steps(7.5, 2.5, ((45.0, 2.5), (90.0, 5.0), (180.0, 10.0)), 2.5),
+    Steps(5.0, 2.5, ((30.0, 2.0), (60.0, 3.0), (120.0, 6.0), (180.0, 10.0)), 2.0),
+)
 IN_ROWS = (Steps(15.0, 10.0, 10.0),)  # for formats that spell out four angles beside each value
 
 
@@ -99,10 +114,10 @@ def _between(x, nodes):
 
 
 def _around(x, nodes):
-    """The same of angles in 0..360 and even nodes, whose last is followed by the first."""
-    place = x / (nodes[1] - nodes[0])
-    low = np.floor(place).astype(int)
-    return low % len(nodes), (low + 1) % len(nodes), place - low
+    """The same of angles in 0..360 and nodes from 0, whose last is followed by the first."""
+    place = np.interp(x, np.append(nodes, nodes[0] + 360.0), np.arange(len(nodes) + 1))
+    low = np.minimum(place.astype(int), len(nodes) - 1)
+    return low, (low + 1) % len(nodes), place - low
 
 
 def _about_mirror(geom: Geometry) -> tuple[np.ndarray, np.ndarray]:
@@ -190,7 +205,7 @@ def _narrowest(surface: ColouredSurface) -> float:
 def _at_nodes(brdf, steps: Steps, width: float) -> TurnedSample:
     """A surface at the nodes of a level; `width` [deg] is the half width of its lobe. Below the horizon the value there
     goes on."""
-    rotation, azimuth = np.arange(0.0, 360.0, steps.rotation), np.arange(0.0, 360.0, steps.azimuth)
+    rotation, azimuth = np.arange(0.0, 360.0, steps.rotation), steps.azimuths()
     theta_i = np.unique(np.append(np.arange(0.0, 86.0, steps.theta_i), 85.0))
     polar = _polar(width) if steps.polar is None else np.append(np.arange(0.0, 89.0, steps.polar), STEEPEST_DEG)
     light, around, away = (a.ravel() for a in np.meshgrid(theta_i, azimuth, polar, indexing="ij"))
