@@ -13,7 +13,7 @@ import numpy as np
 from ..models.model import Composite, Model
 from ..physics.geometry import Geometry
 from ._directions import judged_over
-from ._refit import Goal, TargetModel, refit, settled_over_many
+from ._refit import Goal, TargetModel, least_of_amplitude, refit, settled_over_many
 from ._shown import Shown, beside_mirror, seen_of
 from .exporter import EXACT, ColouredSurface, Statement, number, numbers, status_of
 
@@ -102,25 +102,22 @@ def _worth_settling(
 ) -> dict[str, tuple[TargetModel, Mapping]]:
     """Laws with the values that come nearest, in order: those that hold a model's own values, and those that come near
     the best of them over a few directions."""
-    exact: dict[str, Mapping] = {}
+    for name, target in targets.items():
+        own = _as_known(target, known, goal) if target.parameters else None
+        if own is not None:
+            return {name: (target, own)}  # none is better
+    bounds = {name: least_of_amplitude(target, goal) for name, target in targets.items()}
     tried: dict[str, tuple[float, Mapping]] = {}
-    for name, target in targets.items():
-        own = _as_known(target, known, goal)
-        if not target.parameters:
-            tried[name] = 0.0, {}
-        elif own is None:
-            tried[name] = refit(target, goal)
-        else:
-            exact[name] = own
-            break  # none is better
-    least = min((error for error, _ in tried.values()), default=0.0)
-    found: dict[str, tuple[TargetModel, Mapping]] = {}
-    for name, target in targets.items():
-        if name in exact:
-            found[name] = target, exact[name]
-        elif name in tried and tried[name][0] <= NEAR_BEST * least and not exact:
-            found[name] = target, settled_over_many(target, tried[name][1], goal)
-    return found
+    for name in sorted(targets, key=lambda each: bounds[each] > 0):
+        least = min((error for error, _ in tried.values()), default=np.inf)
+        if bounds[name] <= NEAR_BEST * least:
+            tried[name] = refit(targets[name], goal) if targets[name].parameters else (0.0, {})
+    least = min(error for error, _ in tried.values())
+    return {
+        name: (target, settled_over_many(target, tried[name][1], goal))
+        for name, target in targets.items()
+        if name in tried and tried[name][0] <= NEAR_BEST * least
+    }
 
 
 def _as_known(target: TargetModel, known: Mapping | None, goal: Goal) -> dict | None:

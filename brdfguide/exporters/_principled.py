@@ -48,7 +48,8 @@ def _brdf(
     across, along = (np.maximum(NARROWEST, np.square(roughness) * each) for each in (1 / aspect, aspect))
     lobe = grain.grained_shape_uncorrelated(geom, across, along, axis)
     shiny = _fresnel(geom.cos_d, base_color, metallic, eta) * np.where(np.equal(roughness, 0), 0.0, lobe)
-    return base_color * (1 - metallic) / pi * body + shiny + clearcoat * _coat(geom, clearcoat_gloss)
+    base = base_color * (1 - metallic) / pi * body + shiny
+    return base + clearcoat * _coat(geom, clearcoat_gloss) if np.any(clearcoat) else base
 
 
 def _mirror(geom: Geometry, *, base_color, metallic, roughness, eta, clearcoat, clearcoat_gloss, **_):

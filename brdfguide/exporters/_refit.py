@@ -81,6 +81,11 @@ class Goal:
         root = np.sqrt(np.broadcast_to(self.weights, len(wanted)))[:, None] * self.counted
         return wanted, np.log(wanted), root
 
+    @property
+    def root(self) -> np.ndarray:
+        """Root of what each value counts, (samples, colours); 0 where it does not."""
+        return self._scale[2]
+
     def residual(self, written: np.ndarray) -> np.ndarray:
         """ln(written / wanted) by the root of its weight, (..., samples, colours); 0 where it does not count."""
         wanted, ln_wanted, root = self._scale
@@ -120,6 +125,16 @@ class Goal:
         alike = np.all((self.wanted == self.wanted[:, :1]) | ~self.counted)
         return replace(self, wanted=self.wanted[:, :1]) if alike else self
 
+    @cached_property
+    def few(self) -> "Goal":
+        """The directions among which a search begins."""
+        return self.grey().fewer(FEW)
+
+    @cached_property
+    def many(self) -> "Goal":
+        """And those over which it is settled."""
+        return self.grey().fewer(MANY)
+
     def fewer(self, most: int) -> "Goal":
         """About `most` of the directions, in even steps through all by incidence and distance from the mirror
         direction; those that stand for others are kept."""
@@ -137,7 +152,7 @@ class Goal:
 
 def refit(target: TargetModel, goal: Goal, refine: int = 2) -> tuple[float, dict]:
     """rms ln over a few directions, and the values that are nearest there."""
-    few = goal.grey().fewer(FEW)
+    few = goal.few
     begun = _starts(target, few)
     near = [values for error, values in begun[:refine] if error <= FAR * begun[0][0]]
     return min((_search(target, values, few, BEGUN) for values in near), key=lambda each: each[0])
@@ -145,7 +160,22 @@ def refit(target: TargetModel, goal: Goal, refine: int = 2) -> tuple[float, dict
 
 def settled_over_many(target: TargetModel, values: Mapping, goal: Goal) -> dict:
     """Values found over a few directions, settled over many. Per-channel ones as arrays."""
-    return _search(target, values, goal.grey().fewer(MANY), SETTLED)[1]
+    return _search(target, values, goal.many, SETTLED)[1]
+
+
+def least_of_amplitude(target: TargetModel, goal: Goal) -> float:
+    """rms ln over a few directions that is left of a law which is nothing but an amplitude for each colour, whatever
+    that is; 0 of any other law."""
+    if len(target.parameters) != 1 or not (target.parameters[0].linear and target.parameters[0].per_channel):
+        return 0.0
+    few, name = goal.few, target.parameters[0].name
+    colours = few.wanted.shape[1]
+    nothing, one = target.of_sets(few.geom, {name: np.repeat([[0.0], [1.0]], colours, axis=1)}, colours)
+    if np.any(nothing):
+        return 0.0
+    residual, root = few.residual(one), few.root
+    along = np.sum(root * residual, axis=0) ** 2 / np.maximum(np.sum(root * root, axis=0), 1e-300)
+    return few.rms(max(float(np.sum(residual * residual) - np.sum(along)), 0.0))
 
 
 def _starts(target: TargetModel, goal: Goal) -> list[tuple[float, dict]]:

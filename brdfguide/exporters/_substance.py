@@ -53,6 +53,8 @@ def _brdf(
     f0 = _f0(base_color, metallic, specular_level, coat_opacity, coat_ior)
     f = _fresnel(geom.cos_d, f0, specular_edge_color, metallic)
     base = base_color * (1 - metallic) / pi + f * _lobe(geom, np.square(roughness), anisotropy_level, axis)
+    if not np.any(coat_opacity):
+        return base
     coat = coat_opacity * schlick(geom.cos_d, fresnel.f0(coat_ior))
     return base + coat * _lobe(geom, np.square(coat_roughness), 0.0, axis)
 

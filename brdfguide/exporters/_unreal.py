@@ -47,6 +47,8 @@ def _brdf(
     alpha = np.square(roughness)
     body = base_color * (1 - metallic) / pi
     bare = body + _fresnel(geom.cos_d, base_color, metallic, specular) * _lobe(geom, alpha, anisotropy, axis)
+    if not np.any(clear_coat):
+        return bare
     blend = (0.63 - 0.22 * geom.cos_d) * geom.cos_d - 0.745
     i, r = (np.clip(cos / 1.5 - blend / np.sqrt(geom.sec2_h), 0.001, 1.0) for cos in (geom.cos_i, geom.cos_r))
     f = _fresnel(np.clip(geom.cos_d / 1.5 - blend, 0.0, 1.0), base_color, metallic, specular)

@@ -45,6 +45,8 @@ def brdf(
     base = (1 - f) * (base_color * (1 - metallic) / pi) + f * _lobe(
         geom, np.square(roughness), anisotropy_strength, axis
     )
+    if not np.any(clearcoat):
+        return base
     coat = clearcoat * schlick(geom.cos_r, COAT_F0)
     return (1 - coat) * base + coat * _lobe(geom, np.square(clearcoat_roughness), 0.0, axis)
 
@@ -66,9 +68,10 @@ def _fresnel(cos_d, base_color, metallic, ior, specular):
 def _lobe(geom: Geometry, alpha, strength, axis):
     """D V; 0 where alpha is 0 and the lobe is a mirror."""
     safe = np.where(np.equal(alpha, 0), 1.0, alpha)
-    core = grain.grained_shape_uncorrelated(geom, safe, safe, 0.0)
-    along = safe + (1 - safe) * np.square(strength)
-    lobe = np.where(np.greater(strength, 0), grain.grained_shape(geom, along, safe, axis), core)
+    lobe = grain.grained_shape_uncorrelated(geom, safe, safe, 0.0)
+    if np.any(strength):
+        along = safe + (1 - safe) * np.square(strength)
+        lobe = np.where(np.greater(strength, 0), grain.grained_shape(geom, along, safe, axis), lobe)
     return np.where(np.equal(alpha, 0), 0.0, lobe)
 
 
