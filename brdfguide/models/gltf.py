@@ -20,14 +20,19 @@ from ..physics import fresnel, grain
 from ..physics.geometry import Geometry
 from ..physics.shader_optics import schlick
 from ._grain import AXIS
-from ._shader import METAL_WORD, coat_setting, grain_setting, slider, starts
+from ._shader import METAL_WORD, coat_setting, grain_setting, in_shape_of, slider, starts
 from .facts import Setting
 from .model import Extreme, Model, Parameter, Pin, at
 
 COAT_F0 = 0.04
 
 
-def brdf(
+def brdf(geom: Geometry, **values) -> np.ndarray:
+    """BRDF [1/sr], in the shape of `geom`."""
+    return in_shape_of(_layered(geom, **values), values)
+
+
+def _layered(
     geom: Geometry,
     *,
     base_color,
@@ -40,7 +45,6 @@ def brdf(
     clearcoat,
     clearcoat_roughness,
 ) -> np.ndarray:
-    """BRDF [1/sr], in the shape of `geom`."""
     f = _fresnel(geom.cos_d, base_color, metallic, ior, specular)
     base = (1 - f) * (base_color * (1 - metallic) / pi) + f * _lobe(
         geom, np.square(roughness), anisotropy_strength, axis

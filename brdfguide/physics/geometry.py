@@ -106,7 +106,7 @@ def in_plane(theta_i_deg, theta_r_deg, wavelength=WAVELENGTH_UM) -> Geometry:
 
 def rows(geom: Geometry) -> Geometry:
     """A flat list of directions as rows of one column, (samples, 1), so that channels can stand beside."""
-    if geom.shape == (len(geom), 1):
+    if len(geom.shape) == 2 and geom.shape[1] == 1:
         return geom
     return Geometry(geom.directions.each(lambda values: np.reshape(values, (-1, 1))), geom.wavelength)
 
