@@ -112,7 +112,9 @@ def show_answer(pictures: Pictures, document: dict, answer, files, quiet: bool =
 def print_ranking(document: dict, ranked, measurement, more: str, output: Output, full: bool = False) -> None:
     """A fit on stdout: as JSON, in colour with a sketch on a terminal, in plain columns in a pipe; then `more`."""
     if output.json:
-        print_json(document)
+        from ..report.documents.digest import with_digest
+
+        print_json(with_digest(document))
     elif on_terminal():
         from ..report.text import terminal
 

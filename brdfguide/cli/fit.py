@@ -206,7 +206,6 @@ def fit_one(file: Path, request: FitRequest) -> None:
     from ..face.functions import answered
     from ..files import write_whole
     from ..fitting.job import case
-    from ..report.documents.digest import with_digest
     from ..report.documents.values import residuals
     from ..report.text.values import residuals_csv
 
@@ -223,7 +222,7 @@ def fit_one(file: Path, request: FitRequest) -> None:
         write_whole(request.residuals, residuals_csv(residuals(best, measurement)))
     show_ranking(request.pictures, result, ranked, measurement, file, request.x, output.quiet)
     failed = export_fitted(request.exporting, best.surface, measurement, file.stem, result, fitted, output.quiet)
-    print_ranking(with_digest(result), ranked, measurement, more, output, request.full)
+    print_ranking(result, ranked, measurement, more, output, request.full)
     if failed:
         raise failed
     if answer.no_answer:
