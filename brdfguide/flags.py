@@ -63,9 +63,7 @@ READING = {
     "azimuth-clockwise": Flag("Azimuths count clockwise, as a name says: read with the opposite sign."),
     "azimuth-from-phase": Flag("Azimuths follow from the angle between light and detector."),
     "azimuth-of-detector": Flag("Zeniths with a sign: the azimuth is the detector's plane.", option="--columns"),
-    "azimuth-of-sample": Flag(
-        "Zeniths with a sign: the azimuth is that of the light on the sample.", option="--rotation-sense"
-    ),
+    "azimuth-of-sample": Flag("Zeniths with a sign: the azimuth is the sample's.", option="--rotation-sense"),
     "azimuth-turned": Flag("The phase angle says that azimuths count from the mirror direction.", option="--columns"),
     "below-horizon": Flag("Directions at or below the horizon were dropped."),
     "blocked-retro-zone": Flag("Zeros around the source: the lamp stood in the detector's way."),
@@ -123,9 +121,7 @@ READING = {
     "relative-scale": Flag("The level of the values is relative: they are not 1/sr.", WARNING, "--scale"),
     "rows-selected": Flag("Only the rows that were asked for were kept.", option="--select"),
     "rows-without-angles": Flag("Rows that lack an angle were dropped."),
-    "sample-rotation": Flag(
-        "The sample was turned: its azimuth is the light's, with the opposite sign.", option="--rotation-sense"
-    ),
+    "sample-rotation": Flag("The sample was turned: the light's azimuth follows.", option="--rotation-sense"),
     "scans-joined": Flag("Scans under several turns of one sample were joined, as asked.", option="--turned"),
     "axis-assumed": Flag("Two turns do not tell an axis: one is taken across the grain.", option="--fix"),
     "scale-by-option": Flag("The values were multiplied by the factor that was asked for."),

@@ -1,9 +1,12 @@
 """A brushed metal on a sphere and on a disc twice: by our own preview and by Mitsuba from the exported file.
 
-    python -m tests.exporters.brushed docs/pictures/brushed-mitsuba.png
+    brdfguide fit brushed_aluminium_azimuths.csv --json > brushed.json
+    python -m tests.exporters.brushed docs/pictures/brushed-mitsuba.png brushed.json
 
-Mitsuba's u runs round a sphere's axis, along the grooves, and outward on its disc, across them: on the sphere the two
-widths of the file change places. The light is the preview's. Needs mitsuba.
+Without a fit, of a metal of widths 0.35 and 0.06. Mitsuba's u runs round a sphere's axis, along the grooves, and
+outward on its disc, across them: on the sphere the two widths of the file change places. The light is the preview's.
+Printed is, of each panel, where the bright part lies, along which angle, and how long and wide it is: second moments of
+the luminance above half of the 99th percentile. Needs mitsuba.
 """
 
 import sys
@@ -12,6 +15,7 @@ import numpy as np
 
 from brdfguide import exporters, models
 from brdfguide.exporters.exporter import ColouredSurface
+from brdfguide.fitting.saved import read_fit
 from brdfguide.report import grained_view, render
 
 VALUES = {"alpha_x": 0.35, "alpha_y": 0.06, "axis": 0.0, "n": 1.0, "k": 4.0}
@@ -21,9 +25,9 @@ SIZE, SAMPLES, SHEET = 200, 196, 600  # pixels of a panel, rays a pixel, pixels 
 PLACES = {"sphere": (0.265, 0.235), "disc": (0.745, 0.225)}  # centre and radius in the preview
 
 
-def by_mitsuba(mitsuba, shape: str) -> np.ndarray:
+def by_mitsuba(mitsuba, surface: ColouredSurface, shape: str) -> np.ndarray:
     """Radiance (SIZE, SIZE, 3)."""
-    text = exporters.export("mitsuba", SURFACE).content
+    text = exporters.export("mitsuba", surface).content
     transform = mitsuba.ScalarTransform4f
     if shape == "sphere":
         text = text.replace("alpha_u", "-").replace("alpha_v", "alpha_u").replace('"-"', '"alpha_v"')
@@ -59,16 +63,36 @@ def cut(image: np.ndarray, place: tuple[float, float]) -> np.ndarray:
     return image[rows, int((centre - radius) * SHEET) : int((centre + radius) * SHEET)]
 
 
-def main(path: str) -> None:
+def bright_part(image: np.ndarray) -> dict[str, float]:
+    """Centre x and y of the bright part, in radii from the middle, its angle [deg] from the picture's x counted
+    counter-clockwise, and the length and width of its spread."""
+    light = image @ np.array([0.2126, 0.7152, 0.0722])
+    y, x = (MARGIN * (2 * np.indices(light.shape) / (np.array(light.shape)[:, None, None] - 1) - 1)) * [[[-1]], [[1]]]
+    light = np.where(np.hypot(x, y) < 0.97, light, 0.0)
+    weight = np.clip(light / np.quantile(light[light > 0], 0.99), 0.0, 1.0)
+    weight = np.where(weight > 0.5, weight, 0.0)
+    place = np.stack([x, y]).reshape(2, -1)
+    centre = np.average(place, axis=1, weights=weight.ravel())
+    spread, axes = np.linalg.eigh(np.cov(place, aweights=weight.ravel()))
+    angle = np.degrees(np.arctan2(axes[1, 1], axes[0, 1])) % 180
+    return {"x": centre[0], "y": centre[1], "angle": angle, "length": spread[1] ** 0.5, "width": spread[0] ** 0.5}
+
+
+def main(path: str, fit: str | None = None) -> None:
     import mitsuba
     from matplotlib.figure import Figure
 
     mitsuba.set_variant("scalar_rgb")
-    preview, figure = render.render(SURFACE, SHEET, "front"), Figure(figsize=(7.2, 7.4), layout="constrained")
+    surface = SURFACE if fit is None else exporters.coloured(read_fit(fit), "fit")
+    preview, figure = render.render(surface, SHEET, "front"), Figure(figsize=(7.2, 7.4), layout="constrained")
     for row, shape in enumerate(PLACES):
         for column, (image, who) in enumerate(
-            ((cut(preview, PLACES[shape]), "brdfguide preview"), (by_mitsuba(mitsuba, shape), "Mitsuba, exported file"))
+            (
+                (cut(preview, PLACES[shape]), "brdfguide preview"),
+                (by_mitsuba(mitsuba, surface, shape), "Mitsuba, exported file"),
+            )
         ):
+            print(shape, who, *(f"{name} {number:.3g}" for name, number in bright_part(image).items()))
             panel = figure.add_subplot(2, 2, 2 * row + column + 1)
             panel.imshow(render.tone(image))
             panel.set_title(f"{shape}: {who}", fontsize=9)
@@ -77,4 +101,4 @@ def main(path: str) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])

@@ -201,10 +201,8 @@ def grained(theta_i, phi_i, theta_r, phi_r):
 
 def scans(name: str, brdf, comment: str = "") -> str:
     """A table of scans with theta_r from -70 to 70 under a column of azimuths."""
-    turn, theta_i, theta_r = (
-        np.repeat(TURNS, len(PLANE_I)),
-        *(np.tile(each.ravel(), 6) for each in (PLANE_I, PLANE_R)),
-    )
+    turn = np.repeat(TURNS, PLANE_I.size)
+    theta_i, theta_r = (np.tile(each.ravel(), len(TURNS)) for each in (PLANE_I, PLANE_R))
     made = [turn, theta_i, theta_r, brdf(turn, theta_i, theta_r)]
     return comment + table([name, "theta_i", "theta_r", "brdf"], *made)
 
