@@ -1,6 +1,6 @@
 """What data in the plane of incidence cost, foretold and found, on made surfaces that are no law's exactly.
 
-    python benchmarks/off_plane_price.py [--surfaces 400] [--seed 26] [--known] [--tables]
+    python benchmarks/off_plane_price.py [--surfaces 400] [--first 0] [--seed 26] [--known] [--tables] [--rows FILE]
 
 A made surface is a law of the catalogue with random parameters times a smooth random factor, reciprocal, of up to a
 quarter (rms), so that every law is wrong on it, as on real ones. Scans in the plane of incidence with 2 % of noise are
@@ -8,7 +8,8 @@ fitted; what the recommended law then misses outside the plane, against values w
 what `fit` said. Right is also one of the errors that it names for laws that part from it outside: that is told apart.
 With --known nothing is fitted: the law and its parameters are known, and the error outside is foretold as a multiple of
 that in the plane, which tells how much of what is missed lies in the fitted laws and not in the factor. With --tables
-the given tables are fitted in the plane of incidence and judged outside it.
+the given tables are fitted in the plane of incidence and judged outside it. Each surface fits all candidates, which
+takes seconds: --rows keeps them in a file, which a run that was stopped goes on from; --first leaves out those before.
 """
 
 import argparse
@@ -49,7 +50,8 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=26)
     parser.add_argument("--known", action="store_true", help="the law and its parameters are known: seconds")
     parser.add_argument("--tables", action="store_true", help="the given tables in place of made surfaces")
-    parser.add_argument("--save", type=Path, help="the rows as NumPy's .npy")
+    parser.add_argument("--first", type=int, default=0, help="the number of the first surface")
+    parser.add_argument("--rows", type=Path, help="a file of rows of numbers, gone on from where there is one")
     asked = parser.parse_args()
     if asked.known:
         print(known_law(asked.surfaces, asked.seed))
@@ -57,18 +59,23 @@ def main() -> None:
     if asked.tables:
         of_tables()
         return
-    found = []
-    for number in range(asked.surfaces):
-        row = one(np.random.default_rng([asked.seed, number]))
-        if row is not None:
-            found.append(row)
+    found = _kept(asked.rows)
+    for number in range(asked.first, asked.surfaces):
+        if number not in found:
+            found[number] = one(np.random.default_rng([asked.seed, number]))
+            if asked.rows:
+                with asked.rows.open("a", encoding="utf-8") as file:
+                    print(number, *found[number] or (), file=file)
         if number % 50 == 49:
-            if asked.save:
-                np.save(asked.save, np.array(found))
-            print(f"after {number + 1}: {_shown(np.array(found))}", flush=True)
-    print(_shown(np.array(found)))
-    if asked.save:
-        np.save(asked.save, np.array(found))
+            print(f"up to {number}: {_shown(found)}", flush=True)
+    print(_shown(found))
+
+
+def _kept(path: Path | None) -> dict[int, tuple[float, ...] | None]:
+    """Rows of an earlier run: a surface's number and its four; the number alone where no model is trusted."""
+    lines = path.read_text(encoding="utf-8").splitlines() if path and path.exists() else []
+    rows = (line.split() for line in lines)
+    return {int(row[0]): tuple(map(float, row[1:])) or None for row in rows}
 
 
 def one(rng) -> tuple[float, ...] | None:
@@ -157,7 +164,8 @@ def smooth_factor(rng):
     return factor
 
 
-def _shown(rows) -> str:
+def _shown(found) -> str:
+    rows = np.array([row for row in found.values() if row is not None])
     ratio = rows[:, 0] / rows[:, 1]
     within = np.mean(np.abs(np.log(ratio)) <= np.log(WITHIN))
     with_rivals = np.mean(np.abs(np.log(rows[:, 3] / rows[:, 1])) <= np.log(WITHIN))

@@ -294,6 +294,7 @@ FITTED = {
     "unused": Flag("A term's amplitude is 0: leave the term out.", subject="parameter"),
     "weighed-by-scan": Flag("Scans differ in length: every incidence counts alike.", option="--weights none"),
     "weighed-by-stderr": Flag("Each value is weighed by its standard error.", option="--weights none"),
+    "weighed-robustly": Flag("Values far off the model count little, as --robust asks."),
 }
 
 SCENE = {

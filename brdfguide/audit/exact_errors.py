@@ -5,7 +5,7 @@ anew from the angles [deg], as the pages on errors say it.
 """
 
 from collections import Counter, defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from mpmath import cbrt, cos, exp, fsum, log, mpf, pi, radians, sin, sqrt
@@ -20,6 +20,9 @@ HELD_DEG = 1.0  # how far an incidence wanders that was held
 MOST_SCANS = 64  # with more incidences the order alone cuts blocks
 TILTED_DEG, MOST_TURNS = 1.0, 64  # incidence at which light has an azimuth; more of these are no turns of the sample
 PIECES = 8  # blocks of one incidence
+GAIN = "ln_gain_"  # and the incidence [deg]
+NORMAL_DEG = 1e-7  # up to which a direction is the normal
+FARTHEST_DEG = 89.9  # where the arm stands at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +35,10 @@ class Readings:
     wavelengths: tuple[float, ...]  # [µm]
     solid_angle: float | None = None
     by_scan: bool = False  # every incidence counts alike
+    doubt: tuple[float, ...] = ()  # of the dark level in each channel
+    stated: tuple[tuple[float, ...], ...] | None = None  # standard errors [1/sr] that values are weighed by
+    robust: bool = False  # values far off counted little
+    faults: bool = False  # what the instrument may do unnoticed was counted as doubt
 
     @cached_property
     def sights(self) -> list[ExactReading]:
@@ -123,6 +130,44 @@ def _held(angles: list[float]) -> list[int]:
     return numbers
 
 
+def without_drift(data: Readings, found: dict) -> Readings:
+    """The values without the gains of their scans, the directions with the arm's zero, as a flag `instrument` tells."""
+    gains = _gains(found)
+    at_plane = all(_off_plane_deg(each) < 0.1 for each in data.angles)
+    angles, values = [], []
+    for (theta_i, phi_i, theta_r, phi_r), signed, row in zip(
+        data.angles, data.signed_theta_r, data.values, strict=True
+    ):
+        before = signed if at_plane else theta_r
+        after = min(max(before + found["zero_deg"], -FARTHEST_DEG), FARTHEST_DEG)
+        turn = 180.0 if (after < 0) != (before < 0) else 0.0
+        angles.append((theta_i, phi_i, abs(after), phi_r + turn))
+        gain = gains[min(gains, key=lambda theta: abs(theta - theta_i))]
+        values.append(tuple(float(mpf(value) / exp(mpf(gain))) for value in row))
+    return replace(data, angles=tuple(angles), values=tuple(values))
+
+
+def _gains(found: dict) -> dict[float, float]:
+    """ln of each scan's gain by its incidence [deg]."""
+    return {
+        float(name.removeprefix(GAIN)): gain for name, gain in found.items() if name.removeprefix(GAIN)[0].isdigit()
+    }
+
+
+def spread_of_gains(found: dict):
+    """rms of ln about their mean."""
+    gains = [mpf(each) for each in _gains(found).values()]
+    mean = fsum(gains) / len(gains)
+    return sqrt(fsum((each - mean) ** 2 for each in gains) / len(gains))
+
+
+def _off_plane_deg(angles: tuple[float, float, float, float]) -> float:
+    """Azimuth away from the plane of incidence; 0 at the normal, which lies in every plane."""
+    theta_i, phi_i, theta_r, phi_r = angles
+    off = (phi_r - phi_i) % 180
+    return min(off, 180 - off) if min(theta_i, theta_r) > NORMAL_DEG else 0.0
+
+
 def exact_residuals(surface: ExactSurface, data: Readings) -> list[list]:
     """ln(model/data) in every channel; None where nothing is told."""
     out = []
@@ -198,10 +243,7 @@ def exact_behind(one: list[list], best: list[list], data: Readings) -> tuple[mpf
 
 def neighbours_of_scans(data: Readings) -> list[int]:
     """Which neighbours along a scan err together: a number for each row."""
-    turn, theta = _turns(data), [_tenth(each[0]) for each in data.angles]
-    azimuth = [_tenth(abs((each[3] - each[1] + 180) % 360 - 180)) for each in data.angles]
-    keys = list(zip(turn, theta, azimuth, data.signed_theta_r, strict=True))
-    order = sorted(range(len(theta)), key=lambda place: keys[place])
+    order, theta = scan_order(data), [_tenth(each[0]) for each in data.angles]
     groups: dict[int, list[int]] = defaultdict(list)
     number, before = 0, theta[order[0]]
     for place in order:
@@ -209,16 +251,37 @@ def neighbours_of_scans(data: Readings) -> list[int]:
         before = theta[place]
         groups[number].append(place)
     blocks = [0] * len(order)
-    pieces = min(max(len(order) // 50, 4 * PIECES), 256)
     if len(groups) > MOST_SCANS:
         for rank, place in enumerate(order):
-            blocks[place] = rank * pieces // len(order)
+            blocks[place] = block_number(rank, len(order))
         return blocks
-    each = PIECES if len(groups) > 1 else pieces
+    each = PIECES if len(groups) > 1 else _pieces(len(order))
     for number, members in enumerate(groups.values()):
         for rank, place in enumerate(members):
             blocks[place] = number * each + rank * each // len(members)
     return blocks
+
+
+def scan_order(data: Readings) -> list[int]:
+    """Rows by turn of the sample, incidence, azimuth and reflected angle; those alike in the order of the file."""
+    turn, theta = _turns(data), [_tenth(each[0]) for each in data.angles]
+    azimuth = [_tenth(abs((each[3] - each[1] + 180) % 360 - 180)) for each in data.angles]
+    keys = list(zip(turn, theta, azimuth, data.signed_theta_r, strict=True))
+    return sorted(range(len(theta)), key=lambda place: keys[place])
+
+
+def block_number(rank: int, count: int) -> int:
+    """Of a row in an order of `count` that is cut evenly."""
+    return rank * _pieces(count) // count
+
+
+def _pieces(count: int) -> int:
+    return min(max(count // 50, 4 * PIECES), 256)
+
+
+def was_turned(data: Readings) -> bool:
+    """Whether the sample was turned between scans."""
+    return any(_turns(data))
 
 
 def _turns(data: Readings) -> list[int]:

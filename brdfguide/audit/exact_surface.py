@@ -5,7 +5,7 @@
 The expression is parsed anew, so that a mistake in how the program understands its own answers shows as well.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from mpmath import asin, cos, mpf, pi, radians, sin, sqrt
@@ -14,10 +14,14 @@ from . import textbook_grain, textbook_more
 from .textbook import ExactDirections
 
 GRAINED = {"ggx-aniso", "stam", *textbook_grain.LAWS, *textbook_grain.ROUGHER}
-ANGLES = {"tilt": {"lafortune"}, "spread": {"oren-nayar"}, "axis": GRAINED}  # told in degrees, meant in radians
+# told in degrees, meant in radians
+ANGLES = {"tilt": {"lafortune"}, "spread": {"oren-nayar"}, "theta0": {"sgd-published"}, "axis": GRAINED}
 SHORT = {"he": "he-torrance"}
-KNOWN = {*textbook_more.LAWS, "he-torrance", "he-torrance-aniso", "stam"}  # others take too long, or stand nowhere
+# of `ggx-ms` the program keeps a series that holds five digits, and `cylinders` take a minute
+KNOWN = {*textbook_more.LAWS, *textbook_more.ROUGHER} - {"ggx-ms", "cylinders"}
 COAT = ("coat.n", "coat.depth")
+STEP = mpf("1e-15")  # relative, for differences: of 30 digits fifteen are left
+LINEAR = {"ks", "rho_s", "scale", "flake", "rho"}  # which laws are proportional to
 
 
 class NoLaw(Exception):
@@ -39,13 +43,34 @@ class ExactSurface:
 
     parts: tuple[TermInAnswer, ...]
     values: dict  # key -> one number, or one for each channel, as printed
+    moved: str = ""  # the key of a number that is a step larger
+    known: dict = field(default_factory=dict)  # (part, pair, channel) -> what was evaluated before any number moved
 
     def at(self, key: str, channel: int):
         """One number as the double it is."""
         value = self.values[key]
         if isinstance(value, list):
             value = value[channel if len(value) > 1 else 0]
-        return mpf(float(value))
+        exact = mpf(float(value))
+        return exact + (abs(exact) or 1) * STEP if key == self.moved else exact
+
+    def slope(self, key: str, sight: "ExactReading", channel: int, wavelength):
+        """d reading/d p of one of its numbers."""
+        here, there = self._around[key]
+        size = self.at(key, channel)
+        read = sight.reading(here, channel, wavelength)
+        if key.rpartition(".")[2] in LINEAR and size:
+            return read / size
+        return (sight.reading(there, channel, wavelength) - read) / (there.at(key, channel) - size)
+
+    @cached_property
+    def _around(self) -> "dict[str, tuple[ExactSurface, ExactSurface]]":
+        return {key: self._beside(key) for key in self.values}
+
+    def _beside(self, key: str) -> "tuple[ExactSurface, ExactSurface]":
+        """Its parts that know a number, and the same with the number a step larger: they differ as the whole does."""
+        parts = tuple(each for each in self.parts if key in COAT and each.coated or key in dict(each.keys).values())
+        return replace(self, parts=parts), replace(self, parts=parts, moved=key, known={})
 
     @cached_property
     def _inside(self) -> dict:
@@ -61,7 +86,15 @@ class ExactSurface:
 
     def brdf(self, pair: ExactDirections, channel: int, wavelength):
         """The finite part [1/sr] in one channel; wavelength [µm]."""
-        return sum((self._part(each, pair, channel, wavelength) for each in self.parts), mpf(0))
+        return sum((self._once(each, pair, channel, wavelength) for each in self.parts), mpf(0))
+
+    def _once(self, part: TermInAnswer, pair, channel: int, wavelength):
+        if self.moved:
+            return self._part(part, pair, channel, wavelength)
+        at = part, pair, channel
+        if at not in self.known:
+            self.known[at] = self._part(part, pair, channel, wavelength)
+        return self.known[at]
 
     def _part(self, part: TermInAnswer, pair, channel: int, wavelength):
         values = self._numbers_of(part, channel)
@@ -106,6 +139,8 @@ def _keys(label: str, first: str, values: dict) -> tuple[tuple[str, str], ...]:
     own = {key.removeprefix(label + "."): key for key in values if key.startswith(label + ".")}
     names = (key.removeprefix(first + ".") for key in values if key.startswith(first + "."))
     own |= {name: f"{first}.{name}" for name in names if name not in own}
+    if "k" in own and "n" not in own and COAT[0] in values:
+        own["n"] = COAT[0]  # of a lobe on the coat, which is its rough upper side
     if not own:
         raise NoLaw(f"{label}, whose numbers stand elsewhere")
     return tuple(own.items())

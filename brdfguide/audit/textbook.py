@@ -29,6 +29,7 @@ from mpmath import (
     sqrt,
     tan,
 )  # fmt: skip
+from mpmath.libmp import to_fixed
 
 WAVELENGTH = mpf(0.55)  # µm, as the double it is
 
@@ -68,7 +69,12 @@ def _unit(theta, phi):
 
 def unpolarised(cos_t, n, k=0):
     """Fresnel's reflectance; by real amplitudes where they are real."""
-    c = mpf(cos_t)
+    return _unpolarised(mpf(cos_t), n, k, mp.prec)
+
+
+@lru_cache(maxsize=16384)
+def _unpolarised(c, n, k, prec):
+    """To `prec` bits, once where only the shape of a lobe is another."""
     n = mpf(n) if not k and n >= 1 else mpc(n, abs(k))
     square = n * n
     q = sqrt(square - 1 + c * c)
@@ -184,24 +190,46 @@ def mirror(p, n, k, sigma):
 
 
 def poisson_sum(g, y):
-    """Σ_m g^m e^-g/(m! m) e^(-y/m), around its largest term until the terms are gone.
+    """Σ_m g^m e^-g/(m! m) e^(-y/m), from the sum at twelve digits of both and its slopes there.
+
+    So that a step of a parameter forms no second sum: what is left out is of third order in 1e-12.
+    """
+    at_g, at_y = (f"{float(each):.11e}" for each in (g, y))
+    (total, by_g, by_y), (by_gg, by_gy, by_yy) = _summed(at_g, at_y, mp.prec)
+    step_g, step_y = g - mpf(at_g), y - mpf(at_y)
+    curved = by_gg * step_g**2 / 2 + by_gy * step_g * step_y + by_yy * step_y**2 / 2
+    return total + by_g * step_g + by_y * step_y + curved
+
+
+@lru_cache(maxsize=65536)
+def _summed(at_g: str, at_y: str, prec: int):
+    """The sum and its slopes, then its second derivatives, around its largest term until the terms are gone; to `prec`
+    bits.
 
     Where the summand is wide every few-th term stands for all: for a Gaussian of width w in steps of w/1.9 to 1e-30.
     """
+    g, y = mpf(at_g), mpf(at_y)
     u = lambertw(2 * y / g**2).real / 2
     peak = g * exp(u)
     step = max(1, int(sqrt(peak / (1 + 2 * u)) / mpf("1.9")))
     step = step if step >= 8 else 1  # a narrower one is skew
-    top, total, least, ln_g = max(1, int(peak)), mpf(0), mpf(10) ** -(mp.dps - 5), log(g)
+    top, ln_g, bits = max(1, int(peak)), log(g), prec + 20
+    ln_top = top * ln_g - ln_orders(top, prec) - y / top
+    orders = [0] * 5  # Σ t m^k for k from -2 to 2, in units of the largest term over 2^bits
     for toward in (step, -step):
         m = top if toward > 0 else top - step
         while m >= 1:
-            term = exp(m * ln_g - g - ln_orders(m, mp.prec) - y / m)
-            total += term
-            if term < total * least:
+            term = to_fixed(exp(m * ln_g - ln_orders(m, prec) - y / m - ln_top)._mpf_, bits)
+            once = term // m
+            for place, each in enumerate((once // m, once, term, term * m, term * m * m)):
+                orders[place] += each
+            if term * 10 ** (mp.dps - 5) < orders[2]:
                 break
             m += toward
-    return step * total
+    unit = step * exp(ln_top - g) / mpf(2) ** bits
+    by_m2, by_m, total, with_m, with_m2 = (unit * each for each in orders)
+    curved = with_m2 / g**2 - 2 * with_m / g + total - with_m / g**2
+    return (total, with_m / g - total, -by_m), (curved, by_m - total / g, by_m2)
 
 
 @lru_cache(maxsize=65536)

@@ -12,12 +12,13 @@ from mpmath import (
     acos,
     betainc,
     cos,
+    cosh,
     erfc,
     exp,
     fabs,
+    fdot,
     gamma,
     gammainc,
-    inf,
     lambertw,
     log,
     mp,
@@ -26,6 +27,7 @@ from mpmath import (
     power,
     quad,
     sin,
+    sinh,
     sqrt,
     tan,
     workdps,
@@ -239,40 +241,63 @@ def flakes_beckmann(p, flake, tilt):
     return flake * textbook.beckmann_lobe(p, tilt, 1, mpf(10) ** 40, 1)
 
 
-def hidden_by(slopes):
-    """cos θ Λ of slopes with the density P(t): the mean rise over a line of slope cot θ, over size and azimuth."""
-
-    def hidden(theta):
-        if theta == 0:
-            return mpf(0)
-        c = 1 / tan(theta)
-
-        def rise(r):
-            return 2 * (sqrt(r * r - c * c) - c * acos(c / r)) * slopes(r * r) * r
-
-        ends = sorted({c, *(c * (1 + mpf(10) ** k) for k in range(-4, 7))})
-        return sin(theta) * quad(rise, [*ends, inf])
-
-    return hidden
+@lru_cache(maxsize=4096)
+def rises(theta, prec):
+    """Nodes t and weights, for ∫ P(t) of the mean rise of slopes √t over a line of slope cot θ, over size and azimuth;
+    to `prec` bits. The size runs along cot θ + exp(½π sinh u), whose double exponential ends hold seventeen digits of a
+    density that falls with a power (Takahasi and Mori 1974)."""
+    c, found = 1 / tan(theta), []
+    for place in range(-64, 80):
+        u = mpf(place) / 20
+        beyond = exp(pi / 2 * sinh(u))
+        r = c + beyond
+        rise = 2 * (sqrt(beyond * (r + c)) - c * acos(c / r))
+        found.append((r * r, sin(theta) * rise * r * beyond * pi / 2 * cosh(u) / 20))
+    return found
 
 
-def gtr(p, alpha, gamma, n, k, scale):
+def hidden_by(slopes, theta, prec):
+    """cos θ Λ of slopes with the density P(t); to `prec` bits."""
+    return fdot((slopes(t), weight) for t, weight in rises(theta, prec)) if theta else mpf(0)
+
+
+@lru_cache(maxsize=64)
+def gtr_slopes(alpha, gamma, prec):
+    """P(t); to `prec` bits."""
     c = (alpha**2 - 1) / log(alpha**2) if gamma == 1 else (gamma - 1) * (alpha**2 - 1) / (1 - alpha ** (2 - 2 * gamma))
-
-    def slopes(t):
-        return c / pi * power(1 + t, gamma - 2) / power(alpha**2 + t, gamma)
-
-    return facets(p, slopes, hidden_by(slopes), n, k, scale)
+    return lambda t: c / pi * power(1 + t, gamma - 2) / power(alpha**2 + t, gamma)
 
 
-def sgd(pair, alpha, p, n, k, scale):
-    constant = 1 / (alpha * gammainc(1 - p, alpha))
+@lru_cache(maxsize=64)
+def sgd_slopes(alpha, p, prec):
+    """P(t); to `prec` bits."""
+    constant = 1 / (alpha * gammainc(1 - p, alpha)) / pi
 
     def slopes(t):
         x = alpha + t / alpha
-        return constant * exp(-x) * power(x, -p) / pi
+        return constant * exp(-x) * power(x, -p)
 
-    return facets(pair, slopes, hidden_by(slopes), n, k, scale)
+    return slopes
+
+
+@lru_cache(maxsize=16384)
+def hidden_by_slopes(slopes, first, second, theta, prec):
+    """`hidden_by` of a density with two numbers, once for each angle."""
+    return hidden_by(slopes(first, second, prec), theta, prec)
+
+
+def gtr(p, alpha, gamma, n, k, scale):
+    def hidden(theta):
+        return hidden_by_slopes(gtr_slopes, alpha, gamma, theta, mp.prec)
+
+    return facets(p, gtr_slopes(alpha, gamma, mp.prec), hidden, n, k, scale)
+
+
+def sgd(pair, alpha, p, n, k, scale):
+    def hidden(theta):
+        return hidden_by_slopes(sgd_slopes, alpha, p, theta, mp.prec)
+
+    return facets(pair, sgd_slopes(alpha, p, mp.prec), hidden, n, k, scale)
 
 
 def sgd_published(pair, rho_s, alpha, p, f0, f_normal, theta0, c, k, lam):

@@ -15,6 +15,7 @@ from ..data.measurement import Measurement
 from ..errors import InputError
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
+from .exact_intervals import FittedRow, compare_stderrs
 from .exact_surface import NoLaw, surface_of
 from .rederived import Comparisons, Rederived
 
@@ -49,20 +50,19 @@ def verify(
         found.check("noise.values_told", answer["noise"].get("values_told"), sum(map(sum, data.told)))
         grey = _grey_ring(answer, data)
         rows = {}
+        drifted = any(_has(row, "instrument") for row in answer["ranking"])
         for place, row in enumerate(answer["ranking"]):
             progress(row["candidate"])
             if only is not None and only not in (row["candidate"], row["model"]):
                 continue
+            if drifted and not _has(row, "instrument") and not _has(row, "coarse"):
+                left[row["candidate"]] = "what the instrument did beside it is not in the answer"
+                continue
             try:
-                rows[place] = _Row(row, f"ranking[{place}]", data, grey)
+                rows[place] = _Row(row, f"ranking[{place}]", data, grey, answer["metric"])
             except NoLaw as missing:
                 left[row["candidate"]] = f"no law called {missing} is written down a second time"
                 continue
-            if any(flag["code"] == "instrument" for flag in row["flags"]):
-                left[row["candidate"]] = (
-                    "its errors are told without what the instrument did, which is not in the answer"
-                )
-                del rows[place]
         for each in rows.values():
             each.errors(found)
         _differences(rows, len(rows) == len(answer["ranking"]), found)
@@ -89,6 +89,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
     wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
     wavelengths = wavelengths if isinstance(wavelengths, list) else [wavelengths]
     codes = {each["code"] for each in answer["data"]["findings"]}
+    errors = measurement.stated_errors if "weighed-by-stderr" in codes else None
     return Readings(
         angles=tuple(zip(*(column.ravel().tolist() for column in columns), strict=True)),
         values=tuple(map(tuple, measurement.brdf.tolist())),
@@ -96,7 +97,15 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         wavelengths=tuple(wavelengths if len(wavelengths) == channels else wavelengths * channels),
         solid_angle=measurement.solid_angle or answer["data"].get("solid_angle_sr"),
         by_scan="weighed-by-scan" in codes,
+        doubt=tuple(answer["noise"].get("absolute_per_sr") or [0.0] * channels),
+        stated=tuple(map(tuple, errors.tolist())) if errors is not None else None,
+        robust="weighed-robustly" in codes,
+        faults=bool(measurement.otherwise),
     )
+
+
+def _has(row: dict, code: str) -> bool:
+    return any(flag["code"] == code for flag in row["flags"])
 
 
 def _size(value) -> int:
@@ -135,10 +144,12 @@ def _grey_ring(answer: dict, data: Readings) -> tuple[Ring, list] | None:
 class _Row:
     """One row with its exact residuals."""
 
-    def __init__(self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None):
-        self.row, self.place, self.data, self.grey = row, place, data, grey
+    def __init__(self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None, metric: str):
+        self.row, self.place, self.data, self.grey, self.metric = row, place, data, grey, metric
         self.surface = surface_of(row["model"], row["parameters"])
-        self.residuals = exact_errors.exact_residuals(self.surface, data)
+        drift = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
+        told = data if drift is None else exact_errors.without_drift(data, drift)
+        self.residuals = exact_errors.exact_residuals(self.surface, told)
         self.rms = exact_errors.exact_rms(self.residuals, data.share)
         self.lightness = grey[0].lightness(self.residuals, self.surface) if grey else None
 
@@ -161,11 +172,19 @@ class _Row:
         fitted = (_size(each["value"]) for each in row["parameters"].values() if each.get("fitted"))
         found.check(f"{place}.free_parameters", row["free_parameters"], sum(fitted))
         self._parameters(found)
+        if not _has(row, "instrument"):  # what gains and zero leave open was found on the way
+            fitted_row = FittedRow(
+                row["parameters"], self.surface, self.residuals, not _has(row, "coarse"), self.metric
+            )
+            compare_stderrs(fitted_row, place, self.data, found)
         exact_followers.reflectance_errors(row, place, found)
         exact_followers.exact_growth(self, self.data, found)
         for flag in row["flags"]:
             if flag["code"] == "discrepancy":
                 self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)
+            if flag["code"] == "instrument":
+                spread = exact_errors.spread_of_gains(flag["numbers"])
+                found.check(f"{place}.flags.instrument.gains_rms", flag["numbers"]["gains_rms"], spread)
 
     def _discrepancy(self, told: dict, place: str, found: Comparisons) -> None:
         """Where each number follows from the others: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""

@@ -83,7 +83,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
         noise=noise,
         winners=winners,
         warnings=_overall(rows, winners, noise),
-        weighing=weights.weighing(measurement, options.weights),
+        weighing=weights.weighing(measurement, options.weights, options.robust),
         seen_weights=look.kind,
         close=options.close,
     )

@@ -59,7 +59,7 @@ def sample_weights(measurement: Measurement, kind: str = "auto") -> np.ndarray |
     return (counted / counted[measurement.has_value].mean())[:, None]
 
 
-def weighing(measurement: Measurement, kind: str = "auto") -> tuple[Finding, ...]:
+def weighing(measurement: Measurement, kind: str = "auto", robustly: bool = False) -> tuple[Finding, ...]:
     """What weighs the values, for people."""
     found = []
     if kind in ("auto", "stderr") and measurement.stated_errors is not None:
@@ -73,6 +73,8 @@ def weighing(measurement: Measurement, kind: str = "auto") -> tuple[Finding, ...
             f"errors, no direction over {MOST_WEIGHT:g} times another"
         )
         found.append(Finding("weighed-by-scan", text, option="--weights none"))
+    if robustly:
+        found.append(Finding("weighed-robustly", "values far off the model count little"))
     return tuple(found)
 
 

@@ -33,9 +33,12 @@ APART = ("parameters", "flags", "typed")  # where a key has dots of its own
 MODELS = ("lambertian+ggx", "lambertian+he-torrance", "lambertian+lafortune:2", "lambertian+ward")
 CODE = (
     *("textbook", "textbook_more", "textbook_grain", "exact_surface", "exact_errors", "exact_followers", "rederived"),
-    *("verification", "answer_shape"),
+    *("exact_intervals", "verification", "answer_shape"),
 )
-SHARED = {".", ".textbook", ".exact_surface", ".exact_errors", ".rederived", "..errors", "..data.measurement"}
+SHARED = {
+    *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".rederived"),
+    *("..errors", "..data.measurement"),
+}
 
 
 def made(seed: int = 3, **options):

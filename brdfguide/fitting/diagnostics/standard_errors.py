@@ -15,6 +15,7 @@ from ...physics import fresnel
 from ..layout import Layout, slope_of_coordinate
 
 BLOCKS = 8  # of each incidence angle: neighbours in one block err together
+APART = 9  # decimals of cosines by which neighbours are put in order
 LOOSE = 0.5  # standard error of a logarithm beyond which a parameter counts as not determined: a factor 1.6
 ILL = 1e3  # condition number of the scaled problem beyond which single intervals mislead (ours)
 LOOSE_AXIS = 1 / 6 / np.pi  # standard error of an axis over half a turn, beyond which there is none
@@ -26,17 +27,22 @@ DISCREPANT = 3.5  # standard deviations of the lag-one correlation, over four or
 
 
 def orderings(measurement: Measurement) -> list[np.ndarray]:
-    """Row orders in which neighbours lie close: along scans, by tilt of the half vector, half angle, incidence."""
+    """Row orders in which neighbours lie close: along scans, by tilt of the half vector, half angle, incidence.
+
+    cos² of the tilt and the cosine of the half angle are told apart to nine decimals, and rows that are alike stay in
+    the order of the file: in scans many are, and the last digits would otherwise decide.
+    """
     geom = measurement.geom
 
     def flat(values):
         return np.ravel(np.broadcast_to(values, geom.shape))
 
+    half, upright = np.round(flat(geom.cos_d), APART), np.round(1 / (1 + flat(geom.tan2_h)), APART)
     return [
         along_scans(measurement),
-        np.lexsort((flat(geom.cos_d), np.round(np.sqrt(flat(geom.tan2_h)), 3))),
-        np.lexsort((flat(geom.tan2_h), np.round(flat(geom.cos_d), 3))),
-        np.lexsort((flat(geom.tan2_h), np.round(flat(geom.theta_r_deg), 1))),
+        np.lexsort((half, np.round(np.sqrt(flat(geom.tan2_h)), 3))),
+        np.lexsort((-upright, np.round(flat(geom.cos_d), 3))),
+        np.lexsort((-upright, np.round(flat(geom.theta_r_deg), 1))),
     ]
 
 

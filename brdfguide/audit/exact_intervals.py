@@ -1,0 +1,322 @@
+"""Standard errors of a row's parameters, once more: from its laws' derivatives, its residuals and its neighbours.
+
+    variance of p = σ² w ρ c (JᵀJ)⁻¹,   σ² = Σ r²/(values - free numbers),   w ρ = (1 + ρ)/(1 - ρ)
+
+ρ is the largest correlation between neighbours over four orders of the directions and c how many channels say the same,
+for what all channels share. Where neighbours are alike beyond chance, at least what blocks of them pull a parameter by:
+(JᵀJ)⁻¹ Σ (Jᵀr)(Jᵀr)ᵀ (JᵀJ)⁻¹ (White 1980; Liang and Zeger 1986). J is taken by differences of the laws in the precision
+of the caller, by the parameters themselves: a linear change of coordinates changes no standard error.
+"""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import hypot
+from statistics import median
+
+from mpmath import cbrt, exp, fdot, fsum, matrix, mpf, sqrt
+
+from .exact_errors import LARGEST, SMALLEST, Readings, block_number, neighbours_of_scans, scan_order, was_turned
+from .exact_surface import ExactSurface
+from .rederived import Comparisons
+
+MOST_SAMPLES = 2000  # directions beyond which a fit settles on some of them
+DISCREPANT = 3.5  # standard deviations of the correlation
+MOST_CORRELATED = 0.95
+DECIMALS = 9  # of cosines by which neighbours are put in order
+FEWEST_PAIRS = 8
+EVEN = {"spread", "k", "sigma"}  # of which laws know the square
+LEAST_ERROR, MOST_ERROR = 1e-12, 1e6  # relative, of a stated standard error
+LEAST_DOUBT = 1e-12  # [1/sr]
+DOUBLE = 1e-14  # what a double loses in each step of an inverse, times its condition
+STEEP, UNDER_A_COAT = 1e-8, 3e-5  # relative, of slopes formed in doubles; a coat's mean reflectance is interpolated
+SLOPE = 1e-12  # the same of a slope, over what a change of the number by its own size does to a residual
+LEAST_TOLD = 1e-4  # relative, of a standard error that can be compared at all
+
+
+@dataclass(frozen=True, eq=False)
+class FittedRow:
+    """A row's surface and residuals ln(model/data), and how it was fitted."""
+
+    parameters: dict  # as printed
+    surface: ExactSurface
+    residuals: list[list]
+    refined: bool
+    metric: str
+
+
+def compare_stderrs(row: FittedRow, place: str, data: Readings, found: Comparisons) -> None:
+    """Every standard error that follows; nothing where the fit looked at more than the answer tells."""
+    if len(data.angles) > MOST_SAMPLES or data.robust or data.faults or any(data.limits) or was_turned(data):
+        return
+    errors = _Equations(row, _with_values(data, row)).stderrs()
+    close = UNDER_A_COAT if any(each.coated for each in row.surface.parts) else STEEP
+    for key, channel, right, lost in errors:
+        told = row.parameters[key]["stderr"]
+        if lost > LEAST_TOLD or told is None:
+            continue
+        many = isinstance(told, list)
+        name = f"{place}.parameters.{key}.stderr" + (f"[{channel}]" if many else "")
+        found.check(name, told[channel] if many else told, right, close + lost)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """The directions with a value: which they are of all, and what was measured there."""
+
+    data: Readings
+    residuals: list[list]
+    metric: str
+
+
+def _with_values(data: Readings, row: FittedRow) -> _Part:
+    kept = [place for place, known in enumerate(data.told) if any(known)]
+    stated = None if data.stated is None else tuple(data.stated[place] for place in kept)
+    few = replace(
+        data,
+        angles=tuple(data.angles[place] for place in kept),
+        values=tuple(data.values[place] for place in kept),
+        stated=stated,
+    )
+    return _Part(few, [row.residuals[place] for place in kept], row.metric)
+
+
+@dataclass(frozen=True, eq=False)
+class _Equations:
+    """Normal equations of all free numbers: those that channels share, then those of each channel in turn."""
+
+    row: FittedRow
+    part: _Part
+
+    @cached_property
+    def keys(self) -> tuple[list[str], list[str]]:
+        """Of what all channels share, and of what each has for itself."""
+        free = [key for key, each in self.row.parameters.items() if each.get("fitted")]
+        own = [key for key in free if isinstance(self.row.parameters[key]["value"], list)]
+        return [key for key in free if key not in own], own
+
+    @cached_property
+    def channels(self) -> range:
+        return range(len(self.part.data.wavelengths))
+
+    @cached_property
+    def weights(self) -> list[list]:
+        """Of each value, mean 1 over those that are told; 0 where none is."""
+        data = self.part.data
+        raw = [
+            [mpf(share) if known else mpf(0) for known in row] for share, row in zip(data.share, data.told, strict=True)
+        ]
+        if data.stated is not None:
+            by_error = _by_stated_errors(data)
+            raw = [[a * b for a, b in zip(*pair, strict=True)] for pair in zip(raw, by_error, strict=True)]
+        mean = fsum(v for row in raw for v in row) / sum(map(sum, data.told))
+        return [[v / mean for v in row] for row in raw]
+
+    @cached_property
+    def values(self) -> list[tuple[int, int]]:
+        """Sample and channel of each value that is told."""
+        return [(s, c) for s, row in enumerate(self.part.data.told) for c, known in enumerate(row) if known]
+
+    @cached_property
+    def weighed(self) -> tuple[dict, dict]:
+        """By sample and channel: the residual that was made small, and what makes slopes of f slopes of it."""
+        residual, factor = {}, {}
+        for s, c in self.values:
+            r, slope = self._scaled(s, c)
+            root = sqrt(self.weights[s][c])
+            residual[s, c], factor[s, c] = root * r, root * slope
+        return residual, factor
+
+    def _scaled(self, s: int, c: int):
+        data = self.part.data
+        value = data.exact[s][c]
+        assert value is not None
+        left = self.part.residuals[s][c]
+        f = value * exp(left)
+        if self.part.metric == "cube-root":
+            return cbrt(f) - cbrt(value), cbrt(f) / (3 * f)
+        if self.part.metric == "relative":
+            return f / value - 1, 1 / value
+        if self.part.metric == "cosine":
+            cosines = data.sights[s].pair.cos_i * data.sights[s].pair.cos_r
+            return cosines * (f - value), cosines
+        return left, 1 / max(f, SMALLEST)
+
+    @cached_property
+    def columns(self) -> list[dict]:
+        """d residual/d p of each free number, by sample and channel; those of a channel only there."""
+        shared, own = self.keys
+        factor = self.weighed[1]
+        slopes = {key: _slopes(self.row.surface, key, self.part.data, self.values) for key in (*shared, *own)}
+        out = [{at: factor[at] * slopes[key][at] for at in self.values} for key in shared]
+        for channel in self.channels:
+            at_channel = [at for at in self.values if at[1] == channel]
+            out += [{at: factor[at] * slopes[key][at] for at in at_channel} for key in own]
+        return out
+
+    @cached_property
+    def inverse(self):
+        """(JᵀJ)⁻¹, and a bound of the condition of JᵀJ scaled to ones; None where it has none."""
+        sizes = [sqrt(fsum(v * v for v in column.values())) for column in self.columns]
+        if not all(sizes):
+            return None
+        scaled = matrix(len(sizes))
+        for i, one in enumerate(self.columns):
+            for j in range(i + 1):
+                scaled[i, j] = scaled[j, i] = _product(one, self.columns[j]) / (sizes[i] * sizes[j])
+        try:
+            inverse = scaled**-1
+        except ZeroDivisionError:
+            return None
+        condition = len(sizes) * fsum(inverse[i, i] for i in range(len(sizes)))
+        for i, one in enumerate(sizes):
+            for j, other in enumerate(sizes):
+                inverse[i, j] /= one * other
+        return inverse, condition
+
+    def stderrs(self) -> list[tuple[str, int, mpf, float]]:
+        """Key, channel, standard error and the relative part of it that doubles may have lost."""
+        shared, own = self.keys
+        if not self.columns or any(self._at_its_end(key) for key in (*shared, *own)) or self.inverse is None:
+            return []
+        inverse, condition = self.inverse
+        residual = self.weighed[0]
+        free = len(self.columns)
+        variance = fsum(r * r for r in residual.values()) / max(len(self.values) - free, 1)
+        correlation, score, common = self._alike()
+        wider = (1 + correlation) / (1 - min(correlation, mpf(MOST_CORRELATED)))
+        variances = [wider * variance * each for each in self._spread(inverse)]
+        variances[: len(shared)] = [common * each for each in variances[: len(shared)]]
+        if self.row.refined and score >= DISCREPANT:
+            variances = [max(pair) for pair in zip(variances, self._pulled(inverse), strict=True)]
+        names = [(key, 0) for key in shared] + [(key, channel) for channel in self.channels for key in own]
+        lost = DOUBLE * float(min(condition, mpf(10) ** 30)) + self._of_slopes(names)
+        return [(*name, sqrt(each), lost) for name, each in zip(names, variances, strict=True)]
+
+    def _of_slopes(self, names: list[tuple[str, int]]) -> float:
+        """What doubles lose of the slope by a number that hardly changes f."""
+        sizes = [
+            abs(self.row.surface.at(*name)) * sqrt(fsum(v * v for v in column.values()) / len(column))
+            for name, column in zip(names, self.columns, strict=True)
+        ]
+        return SLOPE / float(min(filter(None, sizes), default=mpf(1)))
+
+    def _at_its_end(self, key: str) -> bool:
+        """Whether the laws have no slope left by a number that is 0, so that rounding alone says how sure it is."""
+        value = self.row.parameters[key]["value"]
+        zero = any(each == 0 for each in (value if isinstance(value, list) else [value]))
+        return zero and key.rpartition(".")[2] in EVEN
+
+    def _spread(self, inverse) -> list:
+        """The diagonal of (JᵀJ)⁻¹; where some directions count more, of (JᵀJ)⁻¹ Jᵀ D J (JᵀJ)⁻¹, D their shares."""
+        count = len(self.columns)
+        if not self.part.data.by_scan:
+            return [inverse[i, i] for i in range(count)]
+        roots = [sqrt(mpf(each)) for each in self.part.data.share]
+        counted = [{at: roots[at[0]] * v for at, v in column.items()} for column in self.columns]
+        middle = matrix(count)
+        for i, one in enumerate(counted):
+            for j in range(i + 1):
+                middle[i, j] = middle[j, i] = _product(one, counted[j])
+        both = inverse * middle * inverse
+        return [both[i, i] for i in range(count)]
+
+    def _alike(self) -> tuple[mpf, mpf, mpf]:
+        """Correlation of neighbours, its size in standard deviations, and how many channels say the same."""
+        rows = self.part.residuals
+        common = common_channels(rows)
+        worst, score = mpf(0), mpf(0)
+        for order in orders_of_neighbours(self.part.data):
+            pairs = [
+                (a, b)
+                for one, other in zip(order[1:], order, strict=False)
+                for a, b in zip(rows[one], rows[other], strict=True)
+                if a is not None and b is not None
+            ]
+            if len(pairs) < FEWEST_PAIRS:
+                continue
+            power = fsum(a * a + b * b for a, b in pairs) / 2
+            correlation = fdot(pairs) / power if power else mpf(0)
+            if correlation > worst:
+                worst, score = correlation, correlation * sqrt(len(pairs) / common)
+        return worst, score, common
+
+    def _pulled(self, inverse) -> list:
+        """What blocks of neighbours pull each number by, squared; the most over the ways to cut blocks."""
+        residual, count = self.weighed[0], len(self.columns)
+        pulls = [{at: residual[at] * v for at, v in column.items()} for column in self.columns]
+        most = [mpf(0)] * count
+        for blocks in ways_to_cut(self.part.data):
+            sums: dict[int, list] = defaultdict(lambda: [mpf(0)] * count)
+            for place, column in enumerate(pulls):
+                for (s, _), v in column.items():
+                    sums[blocks[s]][place] += v
+            moved = [[fdot(zip(inverse[i, :], each, strict=True)) for i in range(count)] for each in sums.values()]
+            most = [max(before, fsum(each[i] ** 2 for each in moved)) for i, before in enumerate(most)]
+        return most
+
+
+def _product(one: dict, other: dict):
+    few, many = (one, other) if len(one) <= len(other) else (other, one)
+    return fdot((v, many[at]) for at, v in few.items() if at in many)
+
+
+def _slopes(surface: ExactSurface, key: str, data: Readings, values: Sequence[tuple[int, int]]) -> dict:
+    """d reading/d p of one parameter, by sample and channel."""
+    return {(s, c): surface.slope(key, data.sights[s], c, data.wavelengths[c]) for s, c in values}
+
+
+def _by_stated_errors(data: Readings) -> list[list]:
+    """1/relative²; none surer than ten times the median, and none of a value near the dark level's doubt."""
+    assert data.stated is not None
+    relative = [
+        [
+            error / hypot(value, 2 * max(doubt, LEAST_DOUBT)) if known and 0 <= error < LARGEST else None
+            for error, value, known, doubt in zip(*each, data.doubt, strict=True)
+        ]
+        for each in zip(data.stated, data.values, data.told, strict=True)
+    ]
+    least = max(0.1 * median(v for row in relative for v in row if v is not None), LEAST_ERROR)
+    return [[mpf(0) if v is None else 1 / mpf(min(max(v, least), MOST_ERROR)) ** 2 for v in row] for row in relative]
+
+
+def common_channels(rows: list[list]):
+    """How many channels say the same: Σ r²_cd over the number of channels, less what chance gives."""
+    channels = len(rows[0])
+    if channels == 1:
+        return mpf(1)
+    columns = [[mpf(0) if row[c] is None else row[c] for row in rows] for c in range(channels)]
+    squares = [[fdot(zip(a, b, strict=True)) for b in columns] for a in columns]
+    total = fsum(
+        squares[a][b] ** 2 / max(squares[a][a] * squares[b][b], SMALLEST**2)
+        for a in range(channels)
+        for b in range(channels)
+    )
+    chance = mpf(channels - 1) / max(len(rows), 1)
+    return min(max(total / channels - chance, mpf(1)), mpf(channels))
+
+
+def orders_of_neighbours(data: Readings) -> list[list[int]]:
+    """Rows along scans, by tilt of the half vector, by half angle, by reflected angle; those alike as in the file."""
+    half = [float(sight.pair.cos_d) for sight in data.sights]
+    tilt = [float(sqrt(max(sight.pair.tan2_h, mpf(0)))) for sight in data.sights]
+    upright = [round(float(1 / (1 + sight.pair.tan2_h)), DECIMALS) for sight in data.sights]
+    numbers = range(len(half))
+    return [
+        scan_order(data),
+        sorted(numbers, key=lambda s: (round(tilt[s], 3), round(half[s], DECIMALS))),
+        sorted(numbers, key=lambda s: (round(half[s], 3), -upright[s])),
+        sorted(numbers, key=lambda s: (round(10 * data.angles[s][2]) / 10, -upright[s])),
+    ]
+
+
+def ways_to_cut(data: Readings) -> list[list[int]]:
+    """The number of the block of each row: along scans by incidence, in the other orders evenly."""
+    ways = [neighbours_of_scans(data)]
+    for order in orders_of_neighbours(data)[1:]:
+        blocks = [0] * len(order)
+        for rank, row in enumerate(order):
+            blocks[row] = block_number(rank, len(order))
+        ways.append(blocks)
+    return ways
