@@ -7,6 +7,7 @@ anew from the angles [deg], as the pages on errors say it.
 from collections import Counter, defaultdict
 from dataclasses import dataclass, replace
 from functools import cached_property
+from statistics import median
 
 from mpmath import cbrt, cos, exp, fsum, log, mpf, pi, radians, sin, sqrt
 
@@ -36,7 +37,8 @@ class Readings:
     solid_angle: float | None = None
     by_scan: bool = False  # every incidence counts alike
     doubt: tuple[float, ...] = ()  # of the dark level in each channel
-    stated: tuple[tuple[float, ...], ...] | None = None  # standard errors [1/sr] that values are weighed by
+    stated: tuple[tuple[float, ...], ...] | None = None  # standard errors [1/sr]
+    by_error: bool = False  # which values are weighed by
     robust: bool = False  # values far off counted little
     faults: bool = False  # what the instrument may do unnoticed was counted as doubt
 
@@ -198,6 +200,19 @@ def by_incidence(rows: list[list], data: Readings) -> dict[float, mpf]:
 
 def _tenth(angle: float) -> float:
     return round(10 * angle) / 10
+
+
+def noise_of_values(data: Readings, relative: float):
+    """rms of ln by which single values scatter: from their relative doubt and the dark level's, or as it is stated."""
+    told = [(v, doubt) for row in data.exact for v, doubt in zip(row, data.doubt, strict=True) if v is not None]
+    scatter = sqrt(mpf(relative) ** 2 + fsum((mpf(doubt) / v) ** 2 for v, doubt in told) / len(told))
+    stated = [
+        error / value
+        for errors, values, known in zip(data.stated or (), data.values, data.told, strict=False)
+        for error, value, clear in zip(errors, values, known, strict=True)
+        if clear and 0 <= error < LARGEST
+    ]
+    return max(scatter, mpf(median(stated))) if stated else scatter
 
 
 def on_scales(rows: list[list], data: Readings) -> dict[str, mpf]:

@@ -107,7 +107,7 @@ class _Equations:
         raw = [
             [mpf(share) if known else mpf(0) for known in row] for share, row in zip(data.share, data.told, strict=True)
         ]
-        if data.stated is not None:
+        if data.by_error:
             by_error = _by_stated_errors(data)
             raw = [[a * b for a, b in zip(*pair, strict=True)] for pair in zip(raw, by_error, strict=True)]
         mean = fsum(v for row in raw for v in row) / sum(map(sum, data.told))

@@ -48,6 +48,9 @@ def verify(
     with workdps(DIGITS):
         _data_block(answer["data"], data, found)
         found.check("noise.values_told", answer["noise"].get("values_told"), sum(map(sum, data.told)))
+        if answer["noise"].get("relative") is not None and "absolute_per_sr" in answer["noise"]:
+            noise = exact_errors.noise_of_values(data, answer["noise"]["relative"])
+            found.rounded("noise_rms_ln", answer["noise_rms_ln"], noise, 6)
         grey = _grey_ring(answer, data)
         rows = {}
         drifted = any(_has(row, "instrument") for row in answer["ranking"])
@@ -89,7 +92,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
     wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
     wavelengths = wavelengths if isinstance(wavelengths, list) else [wavelengths]
     codes = {each["code"] for each in answer["data"]["findings"]}
-    errors = measurement.stated_errors if "weighed-by-stderr" in codes else None
+    errors = measurement.stated_errors
     return Readings(
         angles=tuple(zip(*(column.ravel().tolist() for column in columns), strict=True)),
         values=tuple(map(tuple, measurement.brdf.tolist())),
@@ -97,6 +100,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         wavelengths=tuple(wavelengths if len(wavelengths) == channels else wavelengths * channels),
         solid_angle=measurement.solid_angle or answer["data"].get("solid_angle_sr"),
         by_scan="weighed-by-scan" in codes,
+        by_error="weighed-by-stderr" in codes,
         doubt=tuple(answer["noise"].get("absolute_per_sr") or [0.0] * channels),
         stated=tuple(map(tuple, errors.tolist())) if errors is not None else None,
         robust="weighed-robustly" in codes,

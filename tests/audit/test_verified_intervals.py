@@ -83,6 +83,14 @@ def test_so_is_one_of_values_weighed_by_their_errors_and_by_scan(noise):
     assert len(stderrs(found)) == printed(answer[1])
 
 
+def test_the_noise_of_single_values_follows_from_its_parts():
+    answer = answered(made(geom=synthetic.scan(theta_i=(15, 45, 70), step=4.0)), ("lambertian+ggx",))
+    assert "noise_rms_ln" in [each.place for each in verified(answer).derived]
+    changed = deepcopy(answer[1])
+    changed["noise_rms_ln"] = float(f"{changed['noise_rms_ln'] * 1.00001:.6g}")
+    assert [each.place for each in verified((answer[0], changed)).wrong] == ["noise_rms_ln"]
+
+
 def test_of_a_robust_fit_none_is_told_to_be_wrong():
     answer = answered(made(), robust=True)
     assert "weighed-robustly" in {each["code"] for each in answer[1]["data"]["findings"]}
