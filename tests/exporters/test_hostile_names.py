@@ -45,22 +45,14 @@ HOSTILE = {
     "the same in letters of four bytes": "qx 👍" * 600 + " !touch INJECTED",
     "a directive of pbrt": 'qx"\nInclude "/etc/passwd"\n#',
 }
-COMMENTS = {
+COMMENTS = {  # what a line of comment begins with where that is no #
     "glsl": "//",
     "osl": "//",
-    "usd": "#",
-    "pbrt": "#",
-    "radiance": "#",
-    "radiance-cal": "#",
-    "mitsuba-dict": "#",
     "astm": "COMMENT",
-    "csv": "#",
     "fred": "!!",
-    "lighttools": "#",
     "speos": "written by brdfguide",  # the line of its description
     "speos-anisotropic": "written by brdfguide",
     "tracepro": "File Name\t",
-    "zemax": "#",
 }
 # with a line or more of comments
 TABLES = ("astm", "csv", "fred", "lighttools", "speos", "speos-anisotropic", "tracepro", "zemax")
@@ -89,7 +81,7 @@ def comments(target: str, text: str) -> list[str]:
         return json.loads(text)["materials"][0]["extras"]["brdfguide"]
     if target == "factors":
         return json.loads(text)["comment"]
-    return [line for line in text.split("\n") if line.startswith(COMMENTS[target])]
+    return [line for line in text.split("\n") if line.startswith(COMMENTS.get(target, "#"))]
 
 
 def bare(target: str, text: str, name: str) -> str:
@@ -103,7 +95,7 @@ def bare(target: str, text: str, name: str) -> str:
     if target in XML:
         text = re.sub(r"<!--.*?-->", "", text, flags=re.S)
     else:
-        text = "\n".join(line for line in text.split("\n") if not line.startswith(COMMENTS[target]))
+        text = "\n".join(line for line in text.split("\n") if not line.startswith(COMMENTS.get(target, "#")))
     return re.sub(rf"(?<![A-Za-z]){identifier(name)}(?![A-Za-z])", "NAME", text)
 
 
