@@ -1,6 +1,7 @@
 """What surfaces without a grain pay for the laws that have one: the same commands by today's program and by a copy
 whose laws with a grain are taken out, and by one in which none of a grain's geometry can be formed. Without numbers to
-type: shaders have a grain, too. Stam's law stays: with one length it is a candidate for polished surfaces.
+type: shaders have a grain, too. Stam's law stays in the first copy: with one length it is a candidate for polished
+surfaces, so that polished_mirror.csv has a row less without it.
 
     python benchmarks/without_grain.py [FILE ...] [--turns 5]
 
@@ -28,7 +29,7 @@ def copy_without_grain(folder: Path, *, geometry: bool = True) -> Path:
     directions raise and no lobe has an ellipse."""
     package = folder / "brdfguide"
     shutil.copytree(ROOT / "brdfguide", package, ignore=shutil.ignore_patterns("__pycache__"))
-    for pattern in LAWS:
+    for pattern in LAWS if geometry else (*LAWS, "stam.py"):
         for path in package.joinpath("models").glob(pattern):
             path.unlink()
     for name, functions in () if geometry else FORMED.items():

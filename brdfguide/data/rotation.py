@@ -32,7 +32,7 @@ def _spread_findings(m: Measurement):
             text = f"anisotropic: turning the sample changes values by {np.expm1(spread):.0%} (rms)"
             consequence, settles = "a law without a grain is an average over the turns", ("rotation",)
             yield Finding("anisotropic", text, "warning", consequence, "--average-phi-i", numbers, settles=settles)
-        elif not _turned_grain(m):
+        elif not turned_grain(m):
             text = (
                 f"isotropic, the same from all sides: turning the sample changes values by {np.expm1(spread):.1%} (rms)"
             )
@@ -74,7 +74,7 @@ def is_grained(ellipse: Ellipse) -> bool:
     return np.log(ellipse.ratio) > max(np.log(SEEN_RATIO), SURE * _finite(ellipse.ln_ratio_stderr))
 
 
-def _turned_grain(m: Measurement) -> bool:
+def turned_grain(m: Measurement) -> bool:
     """Whether turning the sample shows a grain, however little of the light its lobe is."""
     ellipse = lobe_ellipse(m) if turn_of_each(m.geom) is not None else None
     return ellipse is not None and is_grained(ellipse)

@@ -9,6 +9,7 @@ from math import hypot
 import numpy as np
 
 from ..data.measurement import Measurement
+from ..data.rotation import turned_grain
 from ..errors import InputError
 from ..finding import Finding
 from ..flags import Effect
@@ -30,7 +31,8 @@ def recommending(ranking: Ranking, measurement: Measurement) -> Ranking:
     best = trusted(ranking.rows)[0]
     if ranking.close == "look" and _is_stray_light(best):
         ranking = replace(ranking, close="none")
-    rows = tuple(replace(row, close=is_close(row, best, ranking)) for row in ranking.rows)
+    grain = best.fit.model.turns and turned_grain(measurement)
+    rows = tuple(replace(row, close=is_close(row, best, ranking, grain)) for row in ranking.rows)
     pick, because = picked(rows, ranking.close, ranking.kind)
     doubts = tuple(each for each in ranking.warnings if each.effect is not Effect.OF_LOOKS)
     looks = (_no_look(rows), appearance.too_coarse(best.fit.surface, measurement))
@@ -48,12 +50,14 @@ def _is_stray_light(row: Row) -> bool:
     return any(term.model.candidacy and term.model.candidacy.polished for term in row.fit.model.terms)
 
 
-def is_close(row: Row, best: Row, ranking: Ranking) -> bool:
+def is_close(row: Row, best: Row, ranking: Ranking, grain: bool = False) -> bool:
     """Whether a row comes close enough to the best that can be trusted: `look`, to the eye; `N%`, by its error; `none`,
-    never."""
+    never. To the eye none without a grain does where the data show one: it is the turning that is looked at."""
     if ranking.close == "none" or row not in trusted(ranking.rows):
         return False
     if ranking.close == "look":
+        if grain and not row.fit.model.turns:
+            return False
         least = min(each.seen for each in trusted(ranking.rows))
         allowed = best.rms_ln + max(ALLOWED, ALLOWED_SHARE * best.rms_ln) + 1e-9
         return row is best or (seen.close_enough(row.seen, least) and row.rms_ln <= allowed)

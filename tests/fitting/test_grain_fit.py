@@ -90,6 +90,19 @@ def test_a_round_sample_has_no_axis_and_its_law_no_grain():
     assert ranked.recommended.fit.name == "ggx (metal)"
 
 
+def test_a_grain_that_the_data_show_is_kept_where_a_round_lobe_would_look_alike():
+    law = models.get("lambertian+ggx-aniso")
+    values = {"lambertian.albedo": 0.3, "ggx-aniso.alpha_x": 0.195, "ggx-aniso.alpha_y": 0.126, "ggx-aniso.n": 1.5}
+    clean = scans("ggx", [0.0, 45, 90, 135], alpha=0.2)
+    brdf = law(clean.geom, law.defaults() | values | {"ggx-aniso.axis": np.radians(154.0)})
+    noise = 1 + 0.02 * np.random.default_rng(96).normal(size=brdf.shape)
+    candidates = [models.get("lambertian+ggx"), free("lambertian+ggx-aniso")]
+    ranked = compare(Measurement(clean.geom, brdf * noise), candidates, FitOptions(close="look"))
+    round_ = next(row for row in ranked.rows if row.fit.name == "lambertian+ggx")
+    assert ranked.recommended.fit.name == "lambertian+ggx-aniso"
+    assert round_.seen < 2 and round_.rms_ln < 0.1 and not round_.close
+
+
 def test_laws_with_a_grain_are_candidates_where_the_sample_was_turned_only():
     def names(measurement):
         return {each.name for each in case_of(measurement, Job()).candidates}
