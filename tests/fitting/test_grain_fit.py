@@ -8,6 +8,7 @@ from brdfguide.data import examine
 from brdfguide.data.measurement import Measurement
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting import grain_walk
+from brdfguide.fitting.choosing import ALLOWED
 from brdfguide.fitting.compare import compare
 from brdfguide.fitting.diagnostics import scan_gains, standard_errors
 from brdfguide.fitting.fit import FitOptions
@@ -92,7 +93,7 @@ def test_a_round_sample_has_no_axis_and_its_law_no_grain():
 
 def test_a_grain_that_the_data_show_is_kept_where_a_round_lobe_would_look_alike():
     law = models.get("lambertian+ggx-aniso")
-    values = {"lambertian.albedo": 0.3, "ggx-aniso.alpha_x": 0.195, "ggx-aniso.alpha_y": 0.126, "ggx-aniso.n": 1.5}
+    values = {"lambertian.albedo": 0.3, "ggx-aniso.alpha_x": 0.185, "ggx-aniso.alpha_y": 0.135, "ggx-aniso.n": 1.5}
     clean = scans("ggx", [0.0, 45, 90, 135], alpha=0.2)
     brdf = law(clean.geom, law.defaults() | values | {"ggx-aniso.axis": np.radians(154.0)})
     noise = 1 + 0.02 * np.random.default_rng(96).normal(size=brdf.shape)
@@ -100,7 +101,7 @@ def test_a_grain_that_the_data_show_is_kept_where_a_round_lobe_would_look_alike(
     ranked = compare(Measurement(clean.geom, brdf * noise), candidates, FitOptions(close="look"))
     round_ = next(row for row in ranked.rows if row.fit.name == "lambertian+ggx")
     assert ranked.recommended.fit.name == "lambertian+ggx-aniso"
-    assert round_.seen < 2 and round_.rms_ln < 0.1 and not round_.close
+    assert round_.seen < 2 and round_.rms_ln < ranked.rows[0].rms_ln + ALLOWED and not round_.close
 
 
 def test_laws_with_a_grain_are_candidates_where_the_sample_was_turned_only():
