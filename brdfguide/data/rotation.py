@@ -14,6 +14,7 @@ SURE = 3.0  # standard errors of its logarithm
 SEEN_UNTURNED, SURE_UNTURNED = 2.0, 5.0
 FEWEST_UNTURNED = 3  # incidences
 ONE_WAY = 0.2  # rms of ln between values half a turn apart, beyond which facets lean to one side (ours)
+APART_DEG = 22.5  # within a quarter of a turn, of two pairs of turns: one grain half way between one pair is as a weave
 LIKE = 0.3  # of the change over a quarter of a turn to that over an eighth, below which a period is a quarter (ours)
 
 
@@ -107,12 +108,14 @@ def _numbers(ellipse: Ellipse) -> tuple[tuple[str, float], ...]:
 
 def _symmetry_findings(m: Measurement):
     """Half a turn that changes values; a quarter that does not, where an eighth does."""
-    half = _change_over(m, 180.0)
+    half, _ = _change_over(m, 180.0)
     if half is not None and half > max(ONE_WAY, 5 * (noise(m) or 0.02)):
         text = f"half a turn of the sample changes values by {np.expm1(half):.0%} (rms): its facets lean to one side"
         yield Finding("grain-one-way", text, "warning", "every law here has the same from both sides of its grain")
-    quarter, eighth = _change_over(m, 90.0), _change_over(m, 45.0)
-    if quarter is not None and eighth is not None and eighth > ONE_WAY and quarter < LIKE * eighth:
+    (quarter, turns), (eighth, _) = _change_over(m, 90.0), _change_over(m, 45.0)
+    if quarter is None or eighth is None or not _are_apart(turns):
+        return
+    if eighth > ONE_WAY and quarter < LIKE * eighth:
         text = (
             f"a quarter of a turn changes values by {np.expm1(quarter):.0%}, an eighth by {np.expm1(eighth):.0%} "
             f"(rms): woven or crossed, not one grain"
@@ -120,8 +123,15 @@ def _symmetry_findings(m: Measurement):
         yield Finding("grain-period", text, "warning", "no law here has two grains")
 
 
-def _change_over(m: Measurement, turn_deg: float) -> float | None:
-    """rms of ln between values that differ by this turn of the sample and by nothing else; None for too few."""
+def _are_apart(turns) -> bool:
+    """Whether two of these turns [deg] are not nearly the same within a quarter of a turn."""
+    apart = np.remainder(np.subtract.outer(turns, turns), 90.0)
+    return bool(np.any((apart >= APART_DEG) & (apart <= 90.0 - APART_DEG)))
+
+
+def _change_over(m: Measurement, turn_deg: float) -> tuple[float | None, np.ndarray]:
+    """rms of ln between values that differ by this turn of the sample and by nothing else, None for too few; and from
+    which turns [deg] they were turned."""
     geom = m.geom
     azimuth = np.remainder(np.round(geom.phi_i_deg[:, 0], 1), 360.0)
     phi = np.abs(np.remainder(geom.phi_deg[:, 0] + 180.0, 360.0) - 180.0)
@@ -135,8 +145,11 @@ def _change_over(m: Measurement, turn_deg: float) -> float | None:
         )
     }
     apart = [
-        ln - here[other]
+        (ln - here[other], turn)
         for (*place, turn), ln in here.items()
         if (other := (*place, round((turn + turn_deg) % 360.0, 1))) in here
     ]
-    return float(np.sqrt(np.mean(np.square(apart)))) if len(apart) >= FEWEST else None
+    if len(apart) < FEWEST:
+        return None, np.zeros(0)
+    changes, turns = np.array(apart).T
+    return float(np.sqrt(np.mean(np.square(changes)))), np.unique(turns)

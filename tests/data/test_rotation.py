@@ -102,6 +102,13 @@ def test_a_weave_comes_back_after_a_quarter_of_a_turn():
     assert "grain-period" in codes(woven) and "grain-period" not in codes(one)
 
 
+def test_a_grain_half_way_between_two_turns_is_no_weave():
+    """Under 0 and 90 degrees it is the same, and under 45 another: one quarter of a turn does not tell."""
+    values = {"alpha_x": 0.35, "alpha_y": 0.07, "axis": np.radians(135.5)}
+    assert "grain-period" not in codes(scans("ggx-aniso", [0.0, 45, 90], seed=87, **values))
+    assert "grain-period" not in codes(scans("ggx-aniso", [0.0, 45, 90, 135], seed=87, **values))
+
+
 @pytest.mark.parametrize(("turn", "needed"), [(0.0, 5.0), (90.0, 0.2)])
 def test_the_height_of_one_scan_against_its_width(turn, needed):
     """Across the grain a peak is ratio times as high as a mirror's of that width, along it as much lower."""
