@@ -50,10 +50,14 @@ def _some(measurement: Measurement, most: int) -> Measurement:
     return measurement[subsample.representative_rows(measurement, most)]
 
 
-def nearest(table: Measurement, geom) -> np.ndarray:
-    """Rows of the table nearest to some directions, each once; light and detector count alike."""
-    have, want = _vectors(table.geom), _vectors(geom)
-    return np.unique([int(np.argmin(np.sum((have - each) ** 2, axis=1))) for each in want])
+def nearest(table: Measurement, geom, either_way: bool = False) -> np.ndarray:
+    """Rows of the table nearest to some directions, each once; light and detector count alike.
+
+    Either way they may be exchanged where that is nearer: it is the same reflectance.
+    """
+    ways = [_vectors(table.geom), *([_vectors(table.geom.swapped())] if either_way else [])]
+    apart = (np.min([np.sum((way - each) ** 2, axis=1) for way in ways], axis=0) for each in _vectors(geom))
+    return np.unique([int(np.argmin(each)) for each in apart])
 
 
 def _vectors(geom) -> np.ndarray:

@@ -17,6 +17,8 @@ NEAR = 1.5  # times the error of the best, up to which a law may be the right on
 MOST_LAWS = 5
 AROUND = (-1.0, 0.0, 1.0)  # standard errors from the fitted values
 SPAN = 0.15  # of a parameter's range, the most that it is moved
+FEW = 16  # directions; what fits fewer may fit nowhere else (ours)
+DOUBTED = 5  # one in so many of the surfaces of which nothing is known stays possible after few directions (ours)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,8 @@ def _start(model: Composite, alpha: float, f0: float, albedo: float | None) -> d
 
 
 def after(ranking: Ranking) -> tuple[Hypothesis, ...]:
-    """The laws that the data leave, each where it was fitted and a standard error to either side."""
+    """The laws that the data leave, each where it was fitted and a standard error to either side; after fewer than
+    `FEW` directions surfaces of which nothing is known beside them."""
     best = ranking.rows[0].rms_ln
     found = []
     for row in [each for each in ranking.rows if each.tied or each.rms_ln <= NEAR * best][:MOST_LAWS]:
@@ -79,6 +82,8 @@ def after(ranking: Ranking) -> tuple[Hypothesis, ...]:
         found += [
             Hypothesis(layout, _moved(surface, layout, errors, step, number)) for number, step in enumerate(AROUND)
         ]
+    if np.count_nonzero(np.isfinite(ranking.rows[0].fit.residuals).any(axis=1)) < FEW:
+        found += unknown()[::DOUBTED]
     return tuple(found)
 
 

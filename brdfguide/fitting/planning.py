@@ -39,6 +39,8 @@ ROUGH_DEG = 5.0  # within so many
 SQUARES = 0.5  # how much it counts that the derivatives' own products are right
 LEAST = 1e-6  # of the largest strength, of a combination of parameters
 APART_DEG = 3.0  # between two directions of a plan
+MIRROR_DEG = 0.1  # tilt of the half vector within which of the least that is offered a direction is the mirror's
+SEES_MIRROR = 16  # directions from which one is the mirror's: a narrow lobe is seen nowhere else
 BLOCK = 8  # directions after which one may stop, and plan again
 MOST_OFFERED = 1500  # directions to choose from
 MOST_MEASURED = 400  # directions of earlier data that count
@@ -171,7 +173,8 @@ def plan_everywhere(
     there = list(range(len(choice), len(numbers)))
     allowed = np.arange(len(numbers)) < len(choice)
     near = _too_near(everywhere.geom, numbers)
-    picked = representatives(everywhere.groups(numbers, squares=True), budget, allowed, near, there)
+    one_of = None if scans else _mirror(everywhere.geom, numbers, allowed, budget)
+    picked = representatives(everywhere.groups(numbers, squares=True), budget, allowed, near, there, one_of)
     told = everywhere.groups(numbers, squares=False)
 
     def expected(some: list[int]) -> float | None:
@@ -198,6 +201,18 @@ def _choice(geom, reach: Goniometer, starts, scans: bool, among: bool, count: in
     angles = np.round(np.concatenate([geom.theta_i_deg, geom.theta_r_deg, geom.phi_deg], axis=1)[rows], 3)
     once = np.sort(np.unique(angles, axis=0, return_index=True)[1])
     return [np.array([row]) for row in rows[once] if reach.reaches(geom[[row]])[0]]
+
+
+def _mirror(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int) -> np.ndarray | None:
+    """(groups,): those allowed that are nearest to the mirror direction; None where none of these is needed, for few
+    directions or beside one that is measured."""
+    tilt = np.degrees(np.arctan(np.sqrt(geom.tan2_h)))[:, 0]
+    least = np.array([tilt[rows].min() for rows in numbers])
+    highest = least[allowed].min() + MIRROR_DEG
+    count = budget + sum(len(rows) for rows, free in zip(numbers, allowed, strict=True) if not free)
+    if count < SEES_MIRROR or np.any(least[~allowed] <= highest):
+        return None
+    return allowed & (least <= highest)
 
 
 def _too_near(geom: Geometry, numbers: list[np.ndarray]) -> np.ndarray:

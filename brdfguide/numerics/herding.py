@@ -53,35 +53,38 @@ class Groups:
         return inner / size**2 - 2 * (self.toward[picked].sum() + self.toward) / size + self.whole
 
 
-def representatives(groups: Groups, count: int, allowed, near, fixed=()) -> list[int]:
+def representatives(groups: Groups, count: int, allowed, near, fixed=(), one_of=None) -> list[int]:
     """Groups that together with the `fixed` ones come closest to the measure, best first.
 
     Takes  how many to pick of those `allowed`, a mask (groups,); `near` (groups, groups), which of them are too near to
-    each other.    Gives  their numbers: each the best beside those before it, then exchanged one by one while that
-    helps, then put in order anew.
+    each other; `one_of`, a mask (groups,) of those of which one at least is picked.    Gives  their numbers: each the
+    best beside those before it, then exchanged one by one while that helps, then put in order anew.
     """
-    picked = _greedy(groups, count, allowed, near, list(fixed))
+    masks = [allowed] * count
+    if one_of is not None:
+        masks = [one_of, *masks[1:]]
+    picked = _greedy(groups, masks, near, list(fixed))
     for _ in range(MOST_SWEEPS):
         changed = False
         for place in range(len(picked)):
             rest = [*picked[:place], *picked[place + 1 :]]
-            error = np.where(_free(allowed, near, rest), groups.with_each([*fixed, *rest]), np.inf)
+            error = np.where(_free(masks[place], near, rest), groups.with_each([*fixed, *rest]), np.inf)
             best = int(np.argmin(error))
             if error[best] < error[picked[place]] * (1 - 1e-9) - 1e-15:
                 picked[place], changed = best, True
         if not changed:
             break
-    return _greedy(groups, count, np.isin(np.arange(len(allowed)), picked), near, list(fixed))
+    return _greedy(groups, [np.isin(np.arange(len(allowed)), picked)] * count, near, list(fixed))
 
 
 def _free(allowed, near, taken) -> np.ndarray:
     return allowed & ~np.any(near[:, taken], axis=1)
 
 
-def _greedy(groups: Groups, count: int, allowed, near, fixed: list[int]) -> list[int]:
+def _greedy(groups: Groups, masks: list, near, fixed: list[int]) -> list[int]:
     picked: list[int] = []
-    for _ in range(count):
-        free = _free(allowed, near, picked)
+    for mask in masks:
+        free = _free(mask, near, picked)
         if not free.any():
             break
         error = np.where(free, groups.with_each([*fixed, *picked]), np.inf)

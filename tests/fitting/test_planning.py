@@ -13,6 +13,7 @@ from brdfguide.errors import InputError
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting import goniometer, hypotheses, next_measurement, planning, ranking
 from brdfguide.fitting.fit import ln_residuals
+from brdfguide.physics.geometry import Geometry
 from brdfguide.report.documents.plan import plan_document, plan_table
 from brdfguide.report.figures import style
 from brdfguide.report.figures.plan import plan_figure
@@ -53,6 +54,44 @@ def test_what_is_expected_falls_from_block_to_block(blind):
     first, second = blind.blocks
     assert first.before is None and second.before == first.after and 1 < second.after < first.after < 1.2
     assert len(first.geom) == len(second.geom) == planning.BLOCK and len(blind.geom) == 16
+
+
+def tilts_deg(geom) -> np.ndarray:
+    return np.degrees(np.arctan(np.sqrt(geom.tan2_h)))[:, 0]
+
+
+def test_of_sixteen_directions_one_is_the_mirrors_where_alone_a_narrow_lobe_is_seen(blind):
+    assert np.min(tilts_deg(blind.geom)) < planning.MIRROR_DEG
+    some, target, reach = hypotheses.unknown()[::6], goniometer.hemisphere(80.0), goniometer.Goniometer()
+    eight = planning.plan_everywhere(target, reach, some, 8).geom
+    assert np.min(tilts_deg(eight)) > planning.MIRROR_DEG  # too dear for eight
+    more = planning.plan_everywhere(target, reach, some, 8, measured=eight).geom
+    assert np.min(tilts_deg(more)) < planning.MIRROR_DEG
+
+
+def test_a_lobe_of_half_a_degree_has_its_height_from_sixteen_directions(blind):
+    model = models.get("lambertian+beckmann")
+    narrow = {"lambertian.albedo": 0.3, "beckmann.alpha": 0.006, "beckmann.n": 1.5}
+    mirror = Geometry.from_degrees(np.array([[30.0]]), 0.0, 30.0, 180.0)
+
+    def missed(geom) -> float:
+        found = fitting.fit(model, synthetic.surface(model, geom, narrow, noise=0.02, seed=3))
+        return abs(float(ln_residuals(found.surface, synthetic.surface(model, mirror, narrow))[0, 0]))
+
+    assert missed(blind.geom) < 0.4
+    assert missed(blind.geom[tilts_deg(blind.geom) > planning.MIRROR_DEG]) > 1
+
+
+def test_after_few_directions_other_surfaces_stay_possible():
+    eight = planning.plan_everywhere(
+        goniometer.hemisphere(80.0), goniometer.Goniometer(), hypotheses.unknown()[::6], 8
+    ).geom
+    truth = {"lambertian.albedo": 0.3, "ggx.alpha": 0.2}
+    few = synthetic.surface(GGX, eight, truth, noise=0.03)
+    many = synthetic.surface(GGX, synthetic.scan((20, 60)), truth, noise=0.03)
+    after_few, after_many = (hypotheses.after(ranking.rank(fitting.fit_all([GGX], each), each)) for each in (few, many))
+    assert len(after_many) == len(hypotheses.AROUND)
+    assert len({each.layout.model.name for each in after_few}) > 5
 
 
 def test_it_keeps_to_what_the_instrument_reaches():

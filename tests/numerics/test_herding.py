@@ -47,6 +47,14 @@ def test_the_first_is_the_best_alone_and_none_is_too_near_or_forbidden():
     assert len(representatives(groups, 20, x > 0.25, near)) < 20
 
 
+def test_one_at_least_is_of_those_that_are_wanted_and_the_others_make_up_for_it():
+    x, kernel, weights = line()
+    groups, every, near = groups_of(kernel, weights), np.ones(len(x), bool), np.eye(len(x), dtype=bool)
+    picked = representatives(groups, 4, every, near, one_of=x > 0.99)
+    assert np.count_nonzero(x[picked] > 0.99) == 1
+    assert groups.distance(picked) < groups.distance([*representatives(groups, 3, every, near), len(x) - 1])
+
+
 def test_what_is_there_already_counts_and_groups_are_taken_whole():
     x, kernel, weights = line()
     numbers = [*(np.array([row]) for row in range(len(x))), np.flatnonzero(x < 0.5)]
