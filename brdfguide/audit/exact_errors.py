@@ -37,9 +37,11 @@ class Readings:
     solid_angle: float | None = None
     by_scan: bool = False  # every incidence counts alike
     doubt: tuple[float, ...] = ()  # of the dark level in each channel
+    missed: float | None = None  # relative error expected of bright values, where others are too dim for ln
     stated: tuple[tuple[float, ...], ...] | None = None  # standard errors [1/sr]
     by_error: bool = False  # which values are weighed by
     robust: bool = False  # values far off counted little
+    taken: list[list[bool]] | None = None  # where they are told, if that is known already
     faults: bool = False  # what the instrument may do unnoticed was counted as doubt
 
     @cached_property
@@ -49,9 +51,20 @@ class Readings:
     @cached_property
     def told(self) -> list[list[bool]]:
         """Where a value is positive, of a size, above the horizon and clear of the dark level."""
-        return [
+        return self.taken or [
             [1 / LARGEST < v < LARGEST and v >= limit and up for v, limit in zip(row, self.limits, strict=True)]
             for row, up in zip(self.values, self._lit, strict=True)
+        ]
+
+    @cached_property
+    def looked_at(self) -> list[list[bool]]:
+        """Where a fit looks: what is told, and where the dark level is in doubt dim and negative values as well."""
+        return [
+            [
+                known or limit > 0 and up and abs(v) < LARGEST
+                for v, limit, known in zip(row, self.limits, told, strict=True)
+            ]
+            for row, told, up in zip(self.values, self.told, self._lit, strict=True)
         ]
 
     @cached_property

@@ -15,7 +15,7 @@ from functools import cached_property
 from math import hypot
 from statistics import median
 
-from mpmath import cbrt, exp, fdot, fsum, matrix, mpf, sqrt
+from mpmath import asinh, cbrt, exp, fdot, fsum, matrix, mpf, sqrt
 
 from .exact_errors import LARGEST, SMALLEST, Readings, block_number, neighbours_of_scans, scan_order, was_turned
 from .exact_surface import ExactSurface
@@ -29,9 +29,11 @@ FEWEST_PAIRS = 8
 EVEN = {"spread", "k", "sigma"}  # of which laws know the square
 LEAST_ERROR, MOST_ERROR = 1e-12, 1e6  # relative, of a stated standard error
 LEAST_DOUBT = 1e-12  # [1/sr]
+SUREST = 1e-12  # of the mean variance
 DOUBLE = 1e-14  # what a double loses in each step of an inverse, times its condition
 STEEP, UNDER_A_COAT = 1e-8, 3e-5  # relative, of slopes formed in doubles; a coat's mean reflectance is interpolated
-SLOPE = 1e-12  # the same of a slope, over what a change of the number by its own size does to a residual
+SLOPE = 1e-11  # the same of a slope, over what a change of the number by its own size does to a residual
+OWN = 10  # times as much of its own standard error as of the others'
 LEAST_TOLD = 1e-4  # relative, of a standard error that can be compared at all
 
 
@@ -48,7 +50,10 @@ class FittedRow:
 
 def compare_stderrs(row: FittedRow, place: str, data: Readings, found: Comparisons) -> None:
     """Every standard error that follows; nothing where the fit looked at more than the answer tells."""
-    if len(data.angles) > MOST_SAMPLES or data.robust or data.faults or any(data.limits) or was_turned(data):
+    dim = any(data.limits)
+    if len(data.angles) > MOST_SAMPLES or data.robust or data.faults or was_turned(data):
+        return
+    if dim and (data.by_scan or data.missed is None or row.metric not in ("ln", "seen")):
         return
     errors = _Equations(row, _with_values(data, row)).stderrs()
     close = UNDER_A_COAT if any(each.coated for each in row.surface.parts) else STEEP
@@ -71,7 +76,7 @@ class _Part:
 
 
 def _with_values(data: Readings, row: FittedRow) -> _Part:
-    kept = [place for place, known in enumerate(data.told) if any(known)]
+    kept = [place for place, known in enumerate(data.looked_at) if any(known)]
     stated = None if data.stated is None else tuple(data.stated[place] for place in kept)
     few = replace(
         data,
@@ -105,18 +110,19 @@ class _Equations:
         """Of each value, mean 1 over those that are told; 0 where none is."""
         data = self.part.data
         raw = [
-            [mpf(share) if known else mpf(0) for known in row] for share, row in zip(data.share, data.told, strict=True)
+            [mpf(share) if known else mpf(0) for known in row]
+            for share, row in zip(data.share, data.looked_at, strict=True)
         ]
         if data.by_error:
             by_error = _by_stated_errors(data)
             raw = [[a * b for a, b in zip(*pair, strict=True)] for pair in zip(raw, by_error, strict=True)]
-        mean = fsum(v for row in raw for v in row) / sum(map(sum, data.told))
+        mean = fsum(v for row in raw for v in row) / len(self.values)
         return [[v / mean for v in row] for row in raw]
 
     @cached_property
     def values(self) -> list[tuple[int, int]]:
-        """Sample and channel of each value that is told."""
-        return [(s, c) for s, row in enumerate(self.part.data.told) for c, known in enumerate(row) if known]
+        """Sample and channel of each value that the fit looked at."""
+        return [(s, c) for s, row in enumerate(self.part.data.looked_at) for c, known in enumerate(row) if known]
 
     @cached_property
     def weighed(self) -> tuple[dict, dict]:
@@ -130,6 +136,9 @@ class _Equations:
 
     def _scaled(self, s: int, c: int):
         data = self.part.data
+        if any(data.limits):
+            f, twice = data.sights[s].reading(self.row.surface, c, data.wavelengths[c]), 2 * self._floors[c]
+            return asinh(f / twice) - asinh(mpf(data.values[s][c]) / twice), 1 / sqrt(f**2 + twice**2)
         value = data.exact[s][c]
         assert value is not None
         left = self.part.residuals[s][c]
@@ -142,6 +151,29 @@ class _Equations:
             cosines = data.sights[s].pair.cos_i * data.sights[s].pair.cos_r
             return cosines * (f - value), cosines
         return left, 1 / max(f, SMALLEST)
+
+    @cached_property
+    def _floors(self) -> list:
+        """c of the generalised logarithm asinh(f/2c), by channel."""
+        missed = mpf(self.part.data.missed or 1)
+        return [max(mpf(doubt) / missed, mpf(LEAST_DOUBT)) for doubt in self.part.data.doubt]
+
+    @cached_property
+    def _unlike(self) -> dict | None:
+        """Variance of each residual over their mean, where they differ: directions that count more say how much a value
+        counts and not how sure it is, and near the dark level a residual is surer than that of ln."""
+        data = self.part.data
+        if data.by_scan:
+            return {(s, c): mpf(data.share[s]) for s, c in self.values}
+        if not any(data.limits):
+            return None
+        squares = [v * v for row in self.part.residuals for v in row if v is not None]
+        variance, found = fsum(squares) / len(squares), {}
+        for s, c in self.values:
+            value, floor = mpf(data.values[s][c]), self._floors[c]
+            found[s, c] = (variance * value**2 + mpf(data.doubt[c]) ** 2) / (value**2 + 4 * floor**2)
+        mean = fsum(found.values()) / len(found)
+        return {at: max(each / mean, mpf(SUREST)) for at, each in found.items()}
 
     @cached_property
     def columns(self) -> list[dict]:
@@ -191,16 +223,20 @@ class _Equations:
         if self.row.refined and score >= DISCREPANT:
             variances = [max(pair) for pair in zip(variances, self._pulled(inverse), strict=True)]
         names = [(key, 0) for key in shared] + [(key, channel) for channel in self.channels for key in own]
-        lost = DOUBLE * float(min(condition, mpf(10) ** 30)) + self._of_slopes(names)
-        return [(*name, sqrt(each), lost) for name, each in zip(names, variances, strict=True)]
+        slopes = self._of_slopes(names)
+        lost = DOUBLE * float(min(condition, mpf(10) ** 30)) + max(slopes)
+        return [
+            (*name, sqrt(each), lost + OWN * of_slope)
+            for name, each, of_slope in zip(names, variances, slopes, strict=True)
+        ]
 
-    def _of_slopes(self, names: list[tuple[str, int]]) -> float:
-        """What doubles lose of the slope by a number that hardly changes f."""
+    def _of_slopes(self, names: list[tuple[str, int]]) -> list[float]:
+        """What doubles lose of the slope by each number: much of one that hardly changes f."""
         sizes = [
             abs(self.row.surface.at(*name)) * sqrt(fsum(v * v for v in column.values()) / len(column))
             for name, column in zip(names, self.columns, strict=True)
         ]
-        return SLOPE / float(min(filter(None, sizes), default=mpf(1)))
+        return [float(SLOPE / (each or mpf(1))) for each in sizes]
 
     def _at_its_end(self, key: str) -> bool:
         """Whether the laws have no slope left by a number that is 0, so that rounding alone says how sure it is."""
@@ -209,12 +245,12 @@ class _Equations:
         return zero and key.rpartition(".")[2] in EVEN
 
     def _spread(self, inverse) -> list:
-        """The diagonal of (JᵀJ)⁻¹; where some directions count more, of (JᵀJ)⁻¹ Jᵀ D J (JᵀJ)⁻¹, D their shares."""
-        count = len(self.columns)
-        if not self.part.data.by_scan:
+        """The diagonal of (JᵀJ)⁻¹; where residuals are not alike, of (JᵀJ)⁻¹ Jᵀ D J (JᵀJ)⁻¹, D their variances."""
+        count, unlike = len(self.columns), self._unlike
+        if unlike is None:
             return [inverse[i, i] for i in range(count)]
-        roots = [sqrt(mpf(each)) for each in self.part.data.share]
-        counted = [{at: roots[at[0]] * v for at, v in column.items()} for column in self.columns]
+        roots = {at: sqrt(each) for at, each in unlike.items()}
+        counted = [{at: roots[at] * v for at, v in column.items()} for column in self.columns]
         middle = matrix(count)
         for i, one in enumerate(counted):
             for j in range(i + 1):
@@ -275,9 +311,12 @@ def _by_stated_errors(data: Readings) -> list[list]:
             error / hypot(value, 2 * max(doubt, LEAST_DOUBT)) if known and 0 <= error < LARGEST else None
             for error, value, known, doubt in zip(*each, data.doubt, strict=True)
         ]
-        for each in zip(data.stated, data.values, data.told, strict=True)
+        for each in zip(data.stated, data.values, data.looked_at, strict=True)
     ]
-    least = max(0.1 * median(v for row in relative for v in row if v is not None), LEAST_ERROR)
+    clear = [
+        v for row, told in zip(relative, data.told, strict=True) for v, known in zip(row, told, strict=True) if known
+    ]
+    least = max(0.1 * median(v for v in clear if v is not None), LEAST_ERROR)
     return [[mpf(0) if v is None else 1 / mpf(min(max(v, least), MOST_ERROR)) ** 2 for v in row] for row in relative]
 
 

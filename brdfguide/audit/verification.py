@@ -7,7 +7,7 @@ digest holds it.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mpmath import cos, erfc, expm1, mpc, mpf, radians, sin, sqrt, tan, workdps
 
@@ -58,8 +58,11 @@ def verify(
             progress(row["candidate"])
             if only is not None and only not in (row["candidate"], row["model"]):
                 continue
-            if drifted and not _has(row, "instrument") and not _has(row, "coarse"):
+            if drifted and not (_has(row, "instrument") or _has(row, "coarse")):
                 left[row["candidate"]] = "what the instrument did beside it is not in the answer"
+                continue
+            if drifted and any(data.limits):
+                left[row["candidate"]] = "what the instrument did changes which values are too dim to tell"
                 continue
             try:
                 rows[place] = _Row(row, f"ranking[{place}]", data, grey, answer["metric"])
@@ -101,6 +104,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         solid_angle=measurement.solid_angle or answer["data"].get("solid_angle_sr"),
         by_scan="weighed-by-scan" in codes,
         by_error="weighed-by-stderr" in codes,
+        missed=answer["noise"].get("missed"),
         doubt=tuple(answer["noise"].get("absolute_per_sr") or [0.0] * channels),
         stated=tuple(map(tuple, errors.tolist())) if errors is not None else None,
         robust="weighed-robustly" in codes,
@@ -149,11 +153,12 @@ class _Row:
     """One row with its exact residuals."""
 
     def __init__(self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None, metric: str):
-        self.row, self.place, self.data, self.grey, self.metric = row, place, data, grey, metric
+        self.row, self.place, self.grey, self.metric = row, place, grey, metric
         self.surface = surface_of(row["model"], row["parameters"])
         drift = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
-        told = data if drift is None else exact_errors.without_drift(data, drift)
-        self.residuals = exact_errors.exact_residuals(self.surface, told)
+        left = data if drift is None else exact_errors.without_drift(data, drift)
+        self.data = data if drift is None else replace(data, taken=left.told)
+        self.residuals = exact_errors.exact_residuals(self.surface, left)
         self.rms = exact_errors.exact_rms(self.residuals, data.share)
         self.lightness = grey[0].lightness(self.residuals, self.surface) if grey else None
 
@@ -279,8 +284,10 @@ def _orders(answer: dict, found: Comparisons) -> None:
         right = row["errors"].get(name)
         if right is not None:
             found.check(f"{place}.{key}", entry[key], right)
-    floor = answer.get("floor")
-    if floor and floor["candidate"] in rows:
+    floor, block = answer.get("floor"), answer["data"]
+    if floor is None or floor["candidate"] not in rows or _has(rows[floor["candidate"]], "instrument"):
+        return
+    if (floor["directions"], floor["channels"]) == (block["samples"], block["channels"]):  # else it looked at some
         found.rounded("floor.model", floor["model"], rows[floor["candidate"]]["rms_ln"])
 
 

@@ -11,6 +11,7 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 
 from brdfguide import models
 from brdfguide.audit import exact_intervals, exact_surface, verification
+from brdfguide.data import examine
 from brdfguide.data.measurement import Measurement
 from brdfguide.data.scans import arm_turned
 from brdfguide.face.functions import fit
@@ -18,6 +19,7 @@ from brdfguide.fitting.diagnostics import standard_errors
 from brdfguide.physics.geometry import rows
 
 from .. import synthetic
+from ..data.test_noise_model import dim_run
 from .test_verification import _one_digit_off
 
 SMALL = synthetic.scan(theta_i=(15, 45, 70), step=10.0)
@@ -81,6 +83,18 @@ def test_so_is_one_of_values_weighed_by_their_errors_and_by_scan(noise):
     found = verified(answer)
     assert not found.wrong
     assert len(stderrs(found)) == printed(answer[1])
+
+
+@pytest.mark.parametrize("stated", [False, True])
+def test_so_is_one_of_values_too_dim_for_their_logarithm(stated):
+    run = dim_run(0.02, 0.0005, 1)
+    run = replace(run, stderr=np.hypot(0.02 * np.abs(run.brdf), 0.0005)) if stated else run
+    answer = answered(examine.prepared(run[::3]), ("lambertian+ggx", "lambertian+ward"))
+    assert answer[1]["noise"]["told_from_per_sr"] is not None
+    found = verified(answer)
+    assert not found.wrong
+    drifted = any(each["code"] == "instrument" for row in answer[1]["ranking"] for each in row["flags"])
+    assert drifted or len(stderrs(found)) == printed(answer[1])
 
 
 def test_the_noise_of_single_values_follows_from_its_parts():
