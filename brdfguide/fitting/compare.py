@@ -14,9 +14,9 @@ from ..models import Composite
 from ..models.visible_change import begins_to_show
 from . import cross_validation, describable, growing, ranking
 from . import fit as fitting
+from .coarse_search import FitOptions, Search, free_count
 from .prepared import Prepared
 from .ranked import Ranking, Step
-from .search import FitOptions, Search, free_count
 
 
 def compare(

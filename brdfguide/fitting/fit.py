@@ -14,12 +14,12 @@ from ..models.candidates import candidate_label
 from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
 from . import drift, weights
+from .coarse_search import OUTRUN, FitOptions, Search, Sought, followed_on, search, search_all
 from .diagnostics import profile_intervals, scan_gains, sigma_bound, standard_errors, unnoticed_faults
 from .layout import Layout
 from .objective import METRICS, metric
 from .prepared import Prepared, Subset, expecting, few_channels, prepare
 from .residuals import ln_residuals, rms, rms_over_all
-from .search import OUTRUN, FitOptions, Search, Sought, followed_on, search, search_all
 
 PRUNED = 4.0  # times the best error beyond which a model is not refined
 LEAST_PRUNED = 0.5  # rms below which every model is refined

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.descents import Ends, Family, minimise_all
+from ..numerics.descents import Descents, Ends, minimise_all
 from . import reading
 from .layout import Layout
 from .objective import Misfit
@@ -63,7 +63,7 @@ class Following:
         few = layout.channels <= MOST_CHANNELS and len(self.starts) * self.misfit.weights.size <= MOST_VALUES
         return bool(self.starts) and few and not (layout.walks or beam)
 
-    def family(self) -> Family:
+    def family(self) -> Descents:
         """The same as `numerics.descents` wants it."""
         layout = self.misfit.layout
         low, high = (
@@ -71,7 +71,7 @@ class Following:
             for shared, own in zip(layout.bounds(layout.shared), layout.bounds(layout.per_channel), strict=True)
         )
         at = np.array([np.concatenate((shared, per_channel.ravel())) for shared, per_channel in self.starts])
-        return Family(Together(self.misfit, self.kept), at, len(layout.shared), layout.channels, low, high)
+        return Descents(Together(self.misfit, self.kept), at, len(layout.shared), layout.channels, low, high)
 
     def one_by_one(self, tolerance: float, most: int) -> list[End]:
         """Each of them by itself."""

@@ -13,11 +13,11 @@ from ..models.extensions import Extension, edges, extensions, is_metallic
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
 from . import cross_validation
+from .coarse_search import FitOptions, Given, Search, Sought, free_count, search_all
 from .diagnostics import standard_errors
 from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
 from .residuals import ln_residuals, rms
-from .search import FitOptions, Given, Search, Sought, free_count, search_all
 
 MOST_STEPS = 4
 ALIKE = 1.03  # times the least held-out error up to which the simpler step is taken

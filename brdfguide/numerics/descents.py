@@ -25,7 +25,7 @@ Evaluate = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class Descents:
     """Problems of one shape."""
 
     evaluate: Evaluate
@@ -72,7 +72,7 @@ class Ends:
 class _All:
     """Problems of all families in rows, one family after another, with as many coordinates as the longest has."""
 
-    def __init__(self, families: Sequence[Family]):
+    def __init__(self, families: Sequence[Descents]):
         self.families = families
         self.firsts = np.cumsum([0, *(len(each.starts) for each in families)])
         self.size = max(each.starts.shape[1] for each in families)
@@ -186,7 +186,7 @@ class _State:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def minimise_all(families: Sequence[Family], *, tolerance: float = 1e-9, most: int = 100) -> list[Ends]:
+def minimise_all(families: Sequence[Descents], *, tolerance: float = 1e-9, most: int = 100) -> list[Ends]:
     """The least sums of squares that descents from the starts of each family reach.
 
     Takes  `tolerance` and `most` as in `least_squares.minimise`, which gives the same for each alone. Raises nothing.
@@ -247,7 +247,7 @@ def _put(ends: Ends, state: _State, rows) -> None:
     )
 
 
-def _of(ends: Ends, first: int, family: Family) -> Ends:
+def _of(ends: Ends, first: int, family: Descents) -> Ends:
     """Those of one family."""
     rows = slice(first, first + len(family.starts))
     return Ends(ends.at[rows, : family.starts.shape[1]], ends.cost[rows], ends.evaluations[rows], ends.converged[rows])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from brdfguide.numerics.descents import Family, minimise_all
+from brdfguide.numerics.descents import Descents, minimise_all
 from brdfguide.numerics.least_squares import minimise
 
 from .test_least_squares import DIGITS, PROBLEMS, residuals_of
@@ -23,7 +23,7 @@ def stacked_of(problem):
 @pytest.mark.parametrize("problem", PROBLEMS, ids=lambda problem: problem.name)
 def test_both_starts_of_nist_reach_the_certified_digits_together(problem):
     starts = np.array(problem.starts, float)
-    ends = minimise_all([Family(stacked_of(problem), starts, starts.shape[1])], tolerance=1e-14, most=1000)[0]
+    ends = minimise_all([Descents(stacked_of(problem), starts, starts.shape[1])], tolerance=1e-14, most=1000)[0]
     digits = -np.log10(np.maximum(np.abs(ends.at - problem.certified) / np.abs(problem.certified), 1e-11))
     assert ends.converged.all()
     assert digits.min() >= DIGITS
@@ -55,8 +55,10 @@ def test_each_takes_the_steps_that_it_takes_alone(most):
 
     starts = np.array([[0.1, 0.3, 1, 1, 1], [9.0, 0.3, 0.1, 5, 1], [1.7, 0.0, 1, 0.5, 1.5], [30.0, 0, 1, 1, 1]])
     low, high = np.array([0.01, -1, 0, 0, 0]), np.array([50.0, 1, 9, 9, 1.5])
-    family = Family(together, starts, 2, 3, low, high)
-    line = Family(lambda which, at: np.stack((np.ones_like(at), at - 3), axis=1)[:, None], np.array([[7.0], [3.0]]), 1)
+    family = Descents(together, starts, 2, 3, low, high)
+    line = Descents(
+        lambda which, at: np.stack((np.ones_like(at), at - 3), axis=1)[:, None], np.array([[7.0], [3.0]]), 1
+    )
     before, ends, behind = minimise_all([line, family, line], tolerance=1e-10, most=most)
     assert before.at == pytest.approx(behind.at) and (most < 3 or before.at == pytest.approx(3.0))
     for place, start in enumerate(starts):
@@ -78,7 +80,7 @@ def test_a_start_with_no_number_ends_without_an_answer_and_stops_no_other():
         return np.stack([np.concatenate((s, r)) for s, r in zip(slope, r, strict=True)])[:, None, :, None]
 
     starts, low = np.array([[1.0], [9.0]]), np.array([0.1])
-    ends = minimise_all([Family(evaluate, starts, 1, low=low)], tolerance=1e-12)[0]
+    ends = minimise_all([Descents(evaluate, starts, 1, low=low)], tolerance=1e-12)[0]
     np.testing.assert_allclose(ends.at[:, 0], 4.0, rtol=1e-9)
 
     def broken(which, at):
@@ -86,6 +88,6 @@ def test_a_start_with_no_number_ends_without_an_answer_and_stops_no_other():
         found[which == 0, :, -1] = np.nan
         return found
 
-    ends = minimise_all([Family(broken, starts, 1, low=low)], tolerance=1e-12)[0]
+    ends = minimise_all([Descents(broken, starts, 1, low=low)], tolerance=1e-12)[0]
     assert not ends.converged[0] and not np.isfinite(ends.cost[0])
     assert ends.converged[1] and ends.at[1, 0] == pytest.approx(4.0, rel=1e-9)
