@@ -1,8 +1,7 @@
 """Something noticed about a measurement, a fit or a scene."""
 
-from dataclasses import dataclass
-
 from . import flags
+from .records import dataclass
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,9 @@ The one list: a Finding whose code, severity or option is not in it cannot be ma
 it. A code with a subject is printed as `code:subject`, such as `at-bound:ggx.alpha`.
 """
 
-from dataclasses import dataclass
 from enum import Enum
+
+from .records import dataclass
 
 SEVERITIES = {
     "note": "worth knowing",
@@ -183,9 +184,7 @@ EXAMINED = {
     "height-against-width": Flag(
         "The peak is higher than any surface of its width could be: brushed, or the scale is wrong.", WARNING, "--scale"
     ),
-    "averaged-over-rotation": Flag(
-        "The mean over the rotations of an anisotropic sample was taken.", WARNING, "--average-phi-i"
-    ),
+    "averaged-over-rotation": Flag("The mean over a sample's rotations was taken.", WARNING, "--average-phi-i"),
     "cosine-i-weighted": Flag(
         "Values are BRDF times cos θi: they were not divided by the irradiance. Undone.", EITHER, "--quantity brdf"
     ),

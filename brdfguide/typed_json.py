@@ -6,7 +6,7 @@ field with a default may be missing. Keys that are not declared are passed over:
 
 import json
 from collections.abc import Callable
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from math import isfinite
 from types import NoneType, UnionType
@@ -15,6 +15,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 from .errors import InputError
 from .opening import content
 from .printable import short
+from .records import dataclass
 
 MOST_BYTES = 2**26  # a fit of a thousand channels has a few millions
 

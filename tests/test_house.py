@@ -3,6 +3,7 @@ its files.
 """
 
 import ast
+import re
 from collections import defaultdict
 from functools import cache
 
@@ -198,6 +199,14 @@ def test_a_file_and_its_functions_can_be_read_at_once(path):
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             lines = node.end_lineno - node.lineno + 1
             assert lines <= MOST_OF_A_FUNCTION, f"{path}:{node.lineno}: {node.name} has {lines} lines"
+
+
+@pytest.mark.parametrize("path", [each for each in WRITTEN if each.startswith("brdfguide/")])
+def test_dataclasses_are_records(path):
+    """Those of `dataclasses` compile as they are defined: they serve where a record cannot, in order and with slots."""
+    text = (ROOT / path).read_text()
+    imported = re.search(r"^from dataclasses import .*\bdataclass\b", text, re.MULTILINE)
+    assert not imported or re.search(r"@dataclass\(.*(order|slots)=True", text)
 
 
 @pytest.mark.parametrize("path", WRITTEN)

@@ -1,6 +1,6 @@
 """What an answer of `fit` must hold to be derived again."""
 
-from dataclasses import dataclass
+from ..records import dataclass
 
 Number = float | None
 

@@ -1,10 +1,11 @@
 """The stability audit: every check of every model, how far it was missed at worst and where."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
 from ..models import Model, get, names, term
+from ..records import dataclass
 from . import checks, limits
 from .references import REFERENCES, RTOL, our_value
 from .trials import Outcome, Worst

@@ -4,7 +4,6 @@ import os
 import platform
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from ..models import cost
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 
 SIZES = (1, 1_000, 1_000_000)
 REPEATS = 7

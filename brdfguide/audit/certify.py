@@ -7,7 +7,7 @@ says nothing of minima elsewhere, for which the fit itself tries a grid of start
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from ..fitting.layout import Layout
 from ..fitting.objective import Misfit, metric
 from ..fitting.residuals import ln_residuals, rms, rms_over_all
 from ..fitting.saved import SavedFit
+from ..records import dataclass
 
 ENOUGH = 1e-4  # of the rms: to lower it by less is agreement (ours)
 SAME = 1e-6  # of the rms ln: two that differ by less are of the same values and data

@@ -5,12 +5,13 @@ anew from the angles [deg], as the pages on errors say it.
 """
 
 from collections import Counter, defaultdict
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from statistics import median
 
 from mpmath import cbrt, cos, exp, fsum, log, mpf, pi, radians, sin, sqrt
 
+from ..records import dataclass
 from .exact_surface import ExactReading, ExactSurface
 
 SMALLEST = mpf("1e-300")  # a law that gives less is taken here

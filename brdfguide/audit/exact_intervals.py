@@ -10,13 +10,14 @@ of the caller, by the parameters themselves: a linear change of coordinates chan
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import hypot
 from statistics import median
 
 from mpmath import asinh, cbrt, exp, fdot, fsum, matrix, mpf, sqrt
 
+from ..records import dataclass
 from .exact_errors import LARGEST, SMALLEST, Readings, block_number, neighbours_of_scans, scan_order, was_turned
 from .exact_surface import ExactSurface
 from .rederived import Comparisons

@@ -5,11 +5,12 @@
 The expression is parsed anew, so that a mistake in how the program understands its own answers shows as well.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 from mpmath import asin, cos, mpf, pi, radians, sin, sqrt
 
+from ..records import dataclass
 from . import textbook_grain, textbook_more
 from .textbook import ExactDirections
 

@@ -1,6 +1,8 @@
 """One number of an answer beside what it should be, and all of them as they are compared."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from ..records import dataclass
 
 CLOSE = 1e-10  # relative: sixteen digits, less what sums over a thousand values and a steep lobe lose
 EXACT = 1e-13  # relative: a double printed and read again

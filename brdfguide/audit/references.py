@@ -5,12 +5,12 @@ functions a value belongs to, as quantity(geometry, values); the others are the 
 """
 
 import csv
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..models import lafortune, oren_nayar, term
 from ..physics import fresnel, microfacet
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 RTOL = 1e-12  # ours come within 1e-14
 TABLE = Path(__file__).with_name("references.csv")

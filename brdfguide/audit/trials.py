@@ -4,12 +4,13 @@ Values come from the whole box of a model's parameters, directions from the whol
 toward the mirror direction and toward grazing. Seeds are fixed.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from ..models import Model
 from ..physics.geometry import Geometry, in_plane, rows
+from ..records import dataclass
 
 # a scan in the plane of incidence, as instruments make it: every 5°, and closer about the mirror direction
 BESIDE = np.concatenate([-np.geomspace(0.02, 10, 10), np.geomspace(0.02, 10, 10)])

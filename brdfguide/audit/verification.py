@@ -7,12 +7,13 @@ digest holds it.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from mpmath import cos, erfc, expm1, mpc, mpf, radians, sin, sqrt, tan, workdps
 
 from ..data.measurement import Measurement
 from ..errors import InputError
+from ..records import dataclass
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
 from .exact_intervals import FittedRow, compare_stderrs

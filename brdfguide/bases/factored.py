@@ -9,13 +9,13 @@ is large costs a little, so that factors of two surfaces at the same directions 
 Source: Bagher, Snyder and Nowrouzezahrai 2016, "A non-parametric factor microfacet model for isotropic BRDFs".
 """
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
 from ..numerics import bsplines, least_squares
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import smooth
 
 TILTS, DIFFERENCES, ANGLES = 24, 10, 10  # splines of d, e and g

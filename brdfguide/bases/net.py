@@ -10,11 +10,10 @@ Source: Sztrajman, Rainer, Ritschel and Weyrich 2021, "Neural BRDF representatio
 Ba 2015 for Adam.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .smooth import around
 
 LAYERS = (6, 21, 21, 1)

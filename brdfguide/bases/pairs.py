@@ -7,11 +7,11 @@ height: Σ ((Σ a p - f)/f)² is least.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .harmonics import even
 from .zernike import zernike
 

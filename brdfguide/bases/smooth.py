@@ -10,12 +10,11 @@ them are what a surface cannot have. The coefficients bend as little as generali
 Source: ours; Rusinkiewicz 1998 for the angles, Craven and Wahba 1979 for the cross-validation.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..numerics import bsplines
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 TILTS, DIFFERENCES = 14, 8  # splines in u and in theta_d
 HARMONICS = (0, 2, 4)  # multiples of phi_d

@@ -3,11 +3,10 @@
 Cells without a value are filled with the mean of those that vary least about them, and never counted.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 HALF, DIFFERENCE, AROUND = 90, 90, 180  # cells in sqrt(theta_h), theta_d and phi_d, as MERL's tables have them
 CUBE = 64  # cells along each angle of the wavelets' table: a power of two

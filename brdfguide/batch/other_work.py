@@ -1,6 +1,5 @@
 """What else is done to each of many surfaces: described ones are advised on, files inspected, answers exported."""
 
-from dataclasses import dataclass
 from math import expm1
 from pathlib import Path
 from typing import Any, ClassVar
@@ -15,6 +14,7 @@ from ..files import folder as make_folder
 from ..files import write_whole
 from ..fitting import saved
 from ..opening import Held, exists
+from ..records import dataclass
 from ..report.documents import inspection, recommendation
 from ..report.documents.plain import plain
 from ..report.text.values import off_words

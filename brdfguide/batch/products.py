@@ -1,7 +1,6 @@
 """What is drawn and written of an answer, each into a file whose name follows from the surface's."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +9,7 @@ from ..errors import InputError, choices
 from ..face.pictures import ANGLE, draw_fit, write_page
 from ..files import folder as make_folder
 from ..files import picture_kind, write_whole
+from ..records import dataclass
 from ..report.documents.values import residuals
 from ..report.text.values import residuals_csv
 from .keys import drawing_engine

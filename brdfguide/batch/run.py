@@ -8,12 +8,13 @@ import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from .. import __version__, opening, stopping
 from ..errors import BrdfguideError, InputError, Stopped, mistake
+from ..records import dataclass
 from ..report.documents.digest import with_digest
 from .keys import DataBytes, beside, bytes_of, engine, key_of
 from .process import peak_mb

@@ -5,7 +5,6 @@ all around, or over the directions that a scene asks for.
 """
 
 import sqlite3
-from dataclasses import dataclass
 from re import fullmatch
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from ..errors import InputError, choices
 from ..models.surface import Surface
 from ..physics import seen
+from ..records import dataclass
 from ..scene.radiance import sample
 from ..scene.scene import Scene
 from .collected import COLUMNS, LOOKS, look_vector

@@ -1,7 +1,8 @@
 """What can become of a surface among many, and the exit status of each."""
 
-from dataclasses import dataclass
 from pathlib import Path
+
+from ..records import dataclass
 
 ANSWERED = "answered"
 BEFORE = "answered before"

@@ -1,7 +1,7 @@
 """What is done to each of many surfaces: the same as to one alone, and what a table says of it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -11,6 +11,7 @@ from ..face.beyond import Beyond, add_beyond
 from ..face.functions import answered
 from ..fitting.job import Job, case
 from ..opening import Held
+from ..records import dataclass
 from ..report.text.values import off_words, off_words_of
 from .keys import canonical
 from .products import Product, make

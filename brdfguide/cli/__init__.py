@@ -8,7 +8,7 @@ import sys
 
 # New objects between two searches for rubbish. Nearly all that a command loads stays, and to look through it again and
 # again took a twentieth of the time of a fit; arrays are freed without it.
-OBJECTS_BETWEEN = 20_000
+OBJECTS_BETWEEN = 100_000
 
 
 def main(argv: list[str] | None = None) -> None:

@@ -4,7 +4,7 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ from typer import Context
 
 from .. import printable
 from ..errors import BrdfguideError, InputError
+from ..records import dataclass
 from ._many import Many
 from ._options import progress, remark
 from ._request import refuse

@@ -1,11 +1,11 @@
 """Options about what a data file means, shared by the commands that read one."""
 
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from typer import Option
 
 from ..errors import InputError
+from ..records import dataclass
 
 PANEL = "Data"
 

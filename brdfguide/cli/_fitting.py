@@ -1,12 +1,12 @@
 """Options about what is fitted and how, shared by the commands that fit."""
 
-from dataclasses import dataclass
 from re import split
 from typing import Annotated
 
 from typer import Option
 
 from ..errors import InputError
+from ..records import dataclass
 
 PANEL = "Fit"
 ModelsOption = Annotated[

@@ -2,13 +2,14 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Annotated
 
 from typer import Context, Option
 
 from ..errors import InputError
+from ..records import dataclass
 from ._request import is_typed, refuse
 
 PANEL = "Several files"

@@ -4,7 +4,6 @@ import os
 import sys
 from collections.abc import Callable
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from threading import Event, Thread
 from time import monotonic
@@ -15,6 +14,7 @@ from typer import Option
 from .. import printable
 from ..errors import choices
 from ..files import picture_kind, writable
+from ..records import dataclass
 from ._described import json_text
 from ._streams import say, whisper
 

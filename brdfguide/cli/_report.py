@@ -1,6 +1,5 @@
 """--plot and --report of the commands that answer: what they draw, shared."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +8,7 @@ from typer import Context, Option
 from .. import printable
 from ..errors import InputError, choices
 from ..face.pictures import ANGLE, AXES
+from ..records import dataclass
 from ._options import (
     Output,
     ThemeOption,

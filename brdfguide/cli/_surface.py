@@ -1,11 +1,11 @@
 """What `export` reads: a fit's or a recommendation's JSON, a described material, a model with parameters typed out."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from typer import Context, Option
 
 from ..errors import BrdfguideError, InputError
+from ..records import dataclass
 from ._options import is_pattern
 from ._request import refuse
 

@@ -1,12 +1,12 @@
 """`brdfguide albedo`: Lambertian albedo from a comparison with known reflectances."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Context, Option
 
 from ..errors import InputError
+from ..records import dataclass
 from ._options import JsonOption, QuietOption, answer, remark
 from ._request import refuse
 

@@ -1,12 +1,12 @@
 """`brdfguide collect DIR -o all.sqlite`: the answers of a folder as one table."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Context, Exit, Option
 
 from ..errors import InputError
+from ..records import dataclass
 from ._many import from_missing
 from ._options import JsonOption, QuietOption, output_file, print_json, remark, working
 

@@ -1,12 +1,12 @@
 """`brdfguide compare A B...`: how different two surfaces look side by side, and where."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Context, Option
 
 from ..errors import InputError
+from ..records import dataclass
 from ._data import AnywayOption, ApertureOption
 from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
 from ._request import refuse, refuse_theme

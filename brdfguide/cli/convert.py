@@ -1,12 +1,12 @@
 """`brdfguide convert DATA OUT`: any readable file as another format, a dense table or a fitted model as MERL's."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Context, Option
 
 from ..errors import InputError, choices
+from ..records import dataclass
 from ._data import Reading
 from ._options import ForceOption, JsonOption, QuietOption, answer, remark
 from ._request import refuse

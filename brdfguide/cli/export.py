@@ -1,12 +1,12 @@
 """`brdfguide export INPUT --to TARGET -o FILE`: a fitted or named surface as a file that a renderer loads."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Context, Exit, Option
 
 from ..errors import InputError
+from ..records import dataclass
 from ._many import Many
 from ._options import ForceOption, JsonOption, QuietOption, command_line, output_file, print_json, remark
 from ._request import refuse

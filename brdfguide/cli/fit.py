@@ -1,7 +1,7 @@
 """`brdfguide fit DATA`: fits the candidate models to a measurement and ranks them."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +9,7 @@ from typer import Argument, Context, Exit, Option
 
 from .. import printable
 from ..errors import InputError, NoAnswer
+from ..records import dataclass
 from ._data import AnywayOption, ApertureOption, Reading, TurnedOption
 from ._fitting import Fitting, expressions
 from ._many import ONE, PANEL, Many

@@ -1,12 +1,12 @@
 """`brdfguide inspect DATA`: what a data file is, what is wrong with it, and what each finding changes."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Context, Exit, Option
 
 from ..errors import InputError
+from ..records import dataclass
 from ._data import Reading, TurnedOption
 from ._many import Many
 from ._options import JsonOption, ThemeOption, answer, picture_file, print_json, working

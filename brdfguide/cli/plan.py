@@ -1,12 +1,13 @@
 """`brdfguide plan [DESCRIPTION]`: which directions or scans to measure, before any data or after some."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
 from typer import Argument, Context, Option
 
 from ..errors import InputError, choices
+from ..records import dataclass
 from ._data import ApertureOption
 from ._options import ForceOption, JsonOption, QuietOption, answer, output_file, picture_file, progress, remark
 from ._request import refuse

@@ -1,12 +1,12 @@
 """`brdfguide prune-answers DIR`: what of a folder of answers no run will ask for again."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Option
 
 from .. import printable
+from ..records import dataclass
 from ._options import JsonOption, QuietOption, print_json, remark
 from ._streams import say
 

@@ -1,12 +1,12 @@
 """`brdfguide recommend INPUT...`: a model with parameters for a described surface, a measured one, or both."""
 
-from dataclasses import dataclass
 from typing import Annotated
 
 from typer import Argument, Context, Exit, Option
 
 from .. import printable
 from ..errors import BrdfguideError, InputError
+from ..records import dataclass
 from ._described import sort_inputs, status_of_descriptions
 from ._fitting import ModelsOption, expressions
 from ._inputs import with_measurements

@@ -2,7 +2,7 @@
 
 import contextlib
 import sys
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +10,7 @@ from typer import Context, Option
 
 from ..errors import InputError
 from ..physics.emergence import DISTANCE_MM, PUPIL_MM, WAVELENGTH
+from ..records import dataclass
 from ..report.documents.emergence import document
 from ..report.text import emergence
 from ._options import FullOption, JsonOption, QuietOption, ThemeOption, answer, picture_file, remark

@@ -1,6 +1,5 @@
 """`brdfguide scatter`: what polished surfaces scatter, in every language in which people tell it."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from re import fullmatch
 from typing import Annotated
@@ -8,6 +7,7 @@ from typing import Annotated
 from typer import Argument, Context, Option
 
 from ..errors import InputError, choices
+from ..records import dataclass
 from ._fitting import assignments
 from ._options import JsonOption, QuietOption, ThemeOption, answer, picture_file, remark
 from ._request import refuse, refuse_theme

@@ -1,6 +1,5 @@
 """`brdfguide search DIR 'satin, kind=dielectric'`: surfaces among many answers, by words, numbers and looks."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -8,6 +7,7 @@ from typer import Argument, Context, Option
 
 from .. import printable
 from ..errors import InputError
+from ..records import dataclass
 from ._options import JsonOption, QuietOption, picture_file, print_json, remark, working
 from ._request import refuse
 from ._scene import SceneOption

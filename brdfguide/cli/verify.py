@@ -1,13 +1,14 @@
 """`brdfguide verify ANSWER.json [DATA]`: the numbers of an answer derived again, with no code of the fit."""
 
 import json
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Option
 
 from ..errors import InputError, NoAnswer, choices
+from ..records import dataclass
 from ._data import Reading, wavelength_choice
 from ._options import JsonOption, QuietOption, answer, print_json, progress
 

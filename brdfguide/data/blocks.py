@@ -4,7 +4,7 @@ Blocks("wall", lambda: map(make, range(1000)))        any function that gives Me
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..errors import InputError
 from ..finding import Finding
 from ..physics.directions import gathered
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .measurement import Measurement
 
 SAMPLE = 100_000  # directions that are fitted; beyond 8,000 of them an answer's third digit stays

@@ -1,11 +1,12 @@
 """What a file may mean by a number: which side has the mirror direction, which quantity, which marks say "no data"."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..finding import Finding
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .measurement import Measurement
 
 SIDES = ("positive", "negative", "phi=180", "phi=0")

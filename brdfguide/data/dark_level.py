@@ -8,13 +8,12 @@ light; the surface itself is the same from both sides (Helmholtz). No model is a
 cosine change by that of the two directions, bright ones too: what leaves exchanged values less apart is believed.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..finding import Finding
 from ..flags import Effect
 from ..formed import formed
+from ..records import dataclass
 from . import reciprocity
 from .measurement import Measurement
 from .noise_model import two_parts

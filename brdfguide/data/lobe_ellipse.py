@@ -9,12 +9,12 @@ incidence; scans in the plane tell from three azimuths on. Gaussian slopes have 
 wider, alike in both.
 """
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
 from ..formed import formed
+from ..records import dataclass
 from .conventions import retro_distance_deg
 from .measurement import Measurement, row_median
 from .turning import turn_of_each

@@ -1,6 +1,6 @@
 """What an instrument reported: values with their directions, channels and doubts."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -9,6 +9,7 @@ from ..finding import Finding
 from ..formed import KeepsFormed, formed
 from ..physics.aperture import Instrument
 from ..physics.geometry import Directions, Geometry
+from ..records import dataclass
 from .noise_model import NoiseModel
 from .otherwise import Otherwise
 

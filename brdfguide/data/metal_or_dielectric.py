@@ -6,11 +6,11 @@ a plastic. What decides is how much comes back near the normal (a bare metal ref
 surface more than 25 %), a body that is the same in all directions, and whether lobe and body have one colour.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from ..records import dataclass
 from .measurement import Measurement, row_median
 
 CANNOT_TELL = "cannot tell from this"

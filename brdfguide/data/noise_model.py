@@ -7,10 +7,12 @@ are equally sure is ln where f is large and linear where it is small: asinh(f / 
 misses by counts as doubt here, since the two are compared.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+
+from ..records import dataclass
 
 CLEAR = 10.0  # doubts of the dark level above which a value counts: it is known to a tenth (IUPAC's quantification)
 MISSED = 0.1  # relative: the least error that is expected, so that every value that counts lies above c

@@ -1,10 +1,9 @@
 """How a measurement would read under a fault of the instrument that is too small to be noticed."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

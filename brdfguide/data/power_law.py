@@ -7,10 +7,9 @@ x^-3.5, and all incidences lie on one line. What a body adds is taken off first.
 which may have seen the mirror beam.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from ..records import dataclass
 from .measurement import Measurement
 
 STEEPEST, FLATTEST = -3.6, -0.5  # s: between facets and a body (ours)

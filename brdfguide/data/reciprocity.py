@@ -4,13 +4,13 @@ A BRDF is reciprocal; values that were multiplied by cos theta_r change by (cos 
 cos theta_i, p = -1. A wrong dark level adds d / cos theta_i to all: bright values stay reciprocal, dim ones do not.
 """
 
-from dataclasses import dataclass
 from math import pi
 from random import Random
 
 import numpy as np
 
 from ..formed import formed
+from ..records import dataclass
 from . import turning
 from .measurement import Measurement, row_median
 

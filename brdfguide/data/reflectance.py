@@ -1,9 +1,8 @@
 """Directional-hemispherical reflectance out of scattered samples: how much light comes back, if the coverage tells."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from ..records import dataclass
 from .measurement import Measurement
 
 RINGS = 24  # of the quadrature about the mirror direction, on the disc where areas are cos theta_r dω

@@ -1,10 +1,10 @@
 """Whether light is sent back to where it came from: a lobe about the source, which no model of the guide has."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
+from ..records import dataclass
 from . import conventions
 from .measurement import Measurement, row_median
 from .turning import turned_parts

@@ -9,13 +9,12 @@
 Without them the many readings in a lobe would decide alone.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..formed import formed
 from ..numerics import neighbours
 from ..physics import seen
+from ..records import dataclass
 from . import subsample
 from .measurement import Measurement, rows_of_each
 

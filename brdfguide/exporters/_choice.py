@@ -5,13 +5,14 @@ is fitted. The residual is always measured with the rounded numbers that the fil
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from ..models.model import Composite, Model
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from ._directions import judged_over
 from ._refit import Goal, TargetModel, least_of_amplitude, refit, settled_over_many
 from ._shown import Shown, beside_mirror, seen_of

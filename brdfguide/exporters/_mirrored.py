@@ -1,12 +1,12 @@
 """Finite directions and mirror directions as one list: what a shader is fitted to where a surface has both."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..models.model import Model
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ part then count alike.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from .. import catalog
 from ..models.model import Model, Parameter
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 from . import _grained
 from ._choice import Choice, best_of, choose, fresnel_index, has_body
 from ._directions import judged_over, rms_ln

@@ -5,12 +5,12 @@ turn the tangent of the mesh.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
 from ..physics.colour import hex_of
+from ..records import dataclass
 from . import _blender, _principled, _substance, _unreal
 from ._choice import Choice
 from ._nodes import Node, node_called

@@ -7,7 +7,7 @@ from over a few hundred directions; what is found there is settled over more.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property, partial
 from itertools import product
 
@@ -18,6 +18,7 @@ from ..models.model import Parameter
 from ..numerics import least_squares
 from ..numerics.nonnegative import non_negative
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from ._mirrored import BesideMirror
 
 Places = Geometry | BesideMirror  # where a law is evaluated

@@ -13,7 +13,7 @@ A colour is given in linear sRGB and as sRGB hex, which a colour picker takes. W
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..errors import NoAnswer
 from ..models.surface import Surface
 from ..physics.colour import hex_of
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 from ._choice import GOOD, Choice, in_order_for
 from ._grained import axis_of, tangent_note
 from ._node_words import readings, what_it_costs

@@ -16,7 +16,6 @@ The error is between the two formulas, rms ln over directions.    Source: the sh
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from ..models import get, made_of
 from ..models.model import Composite, Model
 from ..models.surface import Surface
 from ..physics.fresnel import f0, index_from_f0
+from ..records import dataclass
 from . import _blender, _principled, _substance, _unreal
 from ._law_fit import nearest_of_law
 from ._node_words import what_it_costs

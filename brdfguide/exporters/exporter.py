@@ -5,7 +5,7 @@ rms ln ratio between the target's own law, with the very numbers written, and th
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..models.surface import Surface
 from ..physics import colour
 from ..physics.geometry import Geometry, rows
 from ..printable import comment
+from ..records import dataclass
 
 GLINT = 0.01  # of the light: a mirror weaker than this up to 60 degrees may be left out, and is said to be
 EXACT = 1e-4  # rms ln below which an export may call itself exact: float32 and printed digits are finer

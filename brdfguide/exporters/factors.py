@@ -10,7 +10,6 @@ Source: Bagher, Snyder and Nowrouzezahrai 2016, "A non-parametric factor microfa
 """
 
 import json
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -19,6 +18,7 @@ from ..bases import factored, smooth
 from ..physics.directions import Directions
 from ..physics.geometry import Geometry, rows
 from ..printable import identifier
+from ..records import dataclass
 from ._directions import half_width, judged_over, rms_ln
 from ._shown import seen_of
 from .exporter import ColouredSurface, Export, Exporter, Statement, comment_lines, numbers, refuse_mirror, status_of

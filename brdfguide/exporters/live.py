@@ -7,7 +7,7 @@ written out; a parameter for which that fails, since its numbers are tables, is 
 import operator
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import pi
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from ..models.facts import TOWARD_LIGHT
 from ..models.model import Term
 from ..models.surface import Surface
+from ..records import dataclass
 from ._dialect import literal, needed, prefixed
 from ._shader import functions
 from .exporter import ColouredSurface

@@ -4,7 +4,7 @@ Words and tables are made from the document that `--json` prints, and from nothi
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -16,6 +16,7 @@ from .. import printable
 from ..data.measurement import Measurement
 from ..errors import choices
 from ..models.surface import Surface
+from ..records import dataclass
 
 if TYPE_CHECKING:
     from ..advice.recommend import Recommendation

@@ -4,7 +4,6 @@ It orders finished fits; no fit makes it small.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from ..models.surface import Surface
 from ..physics import seen
 from ..physics.aperture import Instrument
 from ..physics.geometry import in_plane, rows
+from ..records import dataclass
 from .fit import Fit
 from .reading import reading
 

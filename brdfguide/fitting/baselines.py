@@ -6,7 +6,6 @@ None of them is ranked, recommended or exported from here.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from ..data.measurement import Measurement
 from ..errors import InputError
 from ..models import cost
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 DIRECTIONS = 8000
 LINEAR = (("sh", 4), ("sh", 8), ("sh", 12), ("zernike", 8))

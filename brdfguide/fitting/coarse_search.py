@@ -1,7 +1,7 @@
 """Where the starts of models end: the first, coarse part of a fit, on few directions and channels."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from time import perf_counter
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from ..models import Composite
 from ..models.candidates import candidate_label, has_edge, without_edge
 from ..models.extensions import edge_starts
+from ..records import dataclass
 from . import starting_grid
 from .followed import End, Following, follow
 from .layout import Layout
@@ -81,15 +82,18 @@ class Given:
     worth: float = np.inf  # rms that one has to reach in the warm-up to be followed further
 
 
+AT_THE_GRID = Given()
+
+
 @dataclass(frozen=True)
 class Sought:
     """A model to search for."""
 
     model: Composite
-    given: Given = Given()
+    given: Given = AT_THE_GRID
 
 
-def search(model: Composite, data: Prepared, options: FitOptions, given: Given = Given()) -> Search:
+def search(model: Composite, data: Prepared, options: FitOptions, given: Given = AT_THE_GRID) -> Search:
     """Follows the starts of a grid, or those given, and the user's, on few directions and channels."""
     return search_all([Sought(model, given)], data, options)[0]
 

@@ -1,7 +1,7 @@
 """How a fitted model behaves where it was not fitted: left-out angles and turns, toward grazing, imitated spikes."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..models import Composite
 from ..models.surface import Surface
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry, in_plane, rows
+from ..records import dataclass
 from . import starting_grid
 from .choosing import recommending
 from .fit import Fit, FitOptions

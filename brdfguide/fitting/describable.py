@@ -3,7 +3,6 @@
 Both speak of directions between those that were measured, and predict nothing beyond.
 """
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -16,6 +15,7 @@ from ..models.surface import Surface
 from ..physics import colour
 from ..physics.geometry import in_plane
 from ..physics.geometry import rows as rows_of
+from ..records import dataclass
 from . import weights
 from .floor import Floor, Unlike
 from .ranked import Ranking

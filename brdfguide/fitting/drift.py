@@ -9,7 +9,7 @@ after the last: over the core of a narrow lobe ln f is not straight in its zero.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..finding import Finding
 from ..flags import Effect
 from ..formed import formed
 from ..numerics.covariance import covariance_of
+from ..records import dataclass
 from . import weights
 from .diagnostics import standard_errors
 from .layout import Layout

@@ -1,7 +1,7 @@
 """One model, one measurement, one fit; `fit_all` maps it over the candidates. Never compares models."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..models import Composite
 from ..models.candidates import candidate_label
 from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
+from ..records import dataclass
 from . import drift, weights
 from .coarse_search import OUTRUN, FitOptions, Search, Sought, followed_on, search, search_all
 from .diagnostics import profile_intervals, scan_gains, sigma_bound, standard_errors, unnoticed_faults

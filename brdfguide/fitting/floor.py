@@ -6,11 +6,10 @@ M is the model's rms ln; S that of a smooth reciprocal function, Q that of a bod
 cross-validation expects them of further values. `describable` finds them.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..finding import Finding
+from ..records import dataclass
 
 LIMIT = 0.2  # reducible share below which the data are the limit
 RESOLVED = 3.0  # times the noise of a single value, below which a floor is taken to be it (ours)

@@ -1,11 +1,12 @@
 """Starts of models, or held-out folds of them, followed side by side down to their minima."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..numerics.descents import Descents, Ends, minimise_all
+from ..records import dataclass
 from . import reading
 from .layout import Layout
 from .objective import Misfit

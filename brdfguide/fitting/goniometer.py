@@ -1,12 +1,11 @@
 """Where an instrument can put light and detector, one by one or in whole scans, and how long that takes."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import InputError
 from ..physics.directions import Directions
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 
 SHADOW_DEG = 8.0  # nearer to the light than this the detector stands in its way (ours)
 AZIMUTHS_DEG = 22.5  # between planes that are proposed

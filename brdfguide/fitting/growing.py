@@ -3,7 +3,7 @@ that it is no better.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ..models.candidates import candidate_label, containing
 from ..models.extensions import Extension, edges, extensions, is_metallic
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import cross_validation
 from .coarse_search import FitOptions, Given, Search, Sought, free_count, search_all
 from .diagnostics import standard_errors

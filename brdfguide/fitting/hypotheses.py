@@ -1,12 +1,13 @@
 """Surfaces that may be in front of the instrument: what a plan must be good for before, or after, it was measured."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..models import Composite, candidates
 from ..models.facts import Facets
 from ..models.surface import Surface
+from ..records import dataclass
 from .layout import Layout, coordinate_bounds, from_coordinate, to_coordinate
 from .ranked import Ranking
 

@@ -1,6 +1,6 @@
 """What is done to a file of measured data, the same on every road: alone, among many, in another process."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from ..data.turning import turn_of_each
 from ..finding import Finding
 from ..models import Composite, candidates
 from ..physics.aperture import solid_angle_of
+from ..records import dataclass
 from .fit import FitOptions
 
 
@@ -29,6 +30,9 @@ class Job:
     models: tuple[str, ...] | None = None
     options: FitOptions = FitOptions()
     timing: bool = True  # whether the answer holds times, which differ from run to run
+
+
+PLAINLY = Job()
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +94,7 @@ def _grain(measurement: Measurement) -> candidates.Grained | None:
     return None
 
 
-def read_for_fit(file, job: Job = Job()) -> Measurement:
+def read_for_fit(file, job: Job = PLAINLY) -> Measurement:
     """The measurement in a file, or in files of one sample under several turns, with the detector's aperture, what is
     certainly wrong undone, spikes left out and every doubt noted.
 

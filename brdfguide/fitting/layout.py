@@ -5,7 +5,7 @@ and in coordinates in which a fit walks well: the logarithm for widths, the valu
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..models import Composite
 from ..models.facts import Grain
 from ..models.model import Parameter, Term
 from ..models.surface import Surface
+from ..records import dataclass
 from . import grain_walk
 
 

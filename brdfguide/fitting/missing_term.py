@@ -11,7 +11,7 @@ Source: the score test, Rao 1948, "Large sample tests of statistical hypotheses"
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from ..models.extensions import extensions
 from ..models.model import Composite
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .cross_validation import thinned
 from .diagnostics import standard_errors
 from .fit import Fit

@@ -1,6 +1,6 @@
 """Where to measure next: the directions that would best tell tied models apart, or pin the loosest parameter."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -10,6 +10,7 @@ from ..data.lobe_ellipse import two_azimuths
 from ..data.measurement import Measurement
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 from .cross_validation import thinned, thinned_surface
 from .fit import Fit
 from .layout import Layout

@@ -1,6 +1,5 @@
 """Which picture to take next: the phase at which a photograph would best tell tied models apart, or pin a parameter."""
 
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -9,6 +8,7 @@ from ..data.measurement import Measurement
 from ..physics.aperture import Instrument
 from ..physics.directions import Directions
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 from .cross_validation import thinned
 from .next_measurement import APART_DEG, PROPOSALS, TELLING, difference_at, shrinkage
 from .ranked import Ranking

@@ -1,7 +1,7 @@
 """What a fit makes small: the distance between a model and a measurement, and its derivatives."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -10,6 +10,7 @@ from ..data.measurement import Measurement
 from ..errors import choices
 from ..numerics import least_squares
 from ..numerics.least_squares import Minimum
+from ..records import dataclass
 from . import reading
 from .layout import Layout
 

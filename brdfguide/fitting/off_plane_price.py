@@ -12,8 +12,6 @@ told is the one within 25 % of which it most probably lies, for values with the 
 tie in the plane, or may as well be right, and by which the error is another are told beside it.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..data.measurement import Measurement
@@ -21,6 +19,7 @@ from ..models.surface import Surface
 from ..numerics.gaussian_process import Foretold, Places, foretold
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import starting_grid
 from .cross_validation import thinned_surface
 from .fit import Fit

@@ -1,7 +1,7 @@
 """Errors of fits over a table too large to be held: sums of blocks, which add up in any order and on any machine."""
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from ..data.blocks import Blocks
 from ..data.examine import as_corrected
 from ..data.measurement import Measurement
 from ..models.surface import Surface
+from ..records import dataclass
 from .ranked import Ranking, Row
 from .residuals import BLOCK, ln_residuals
 

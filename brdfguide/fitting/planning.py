@@ -13,7 +13,7 @@ kernel are ours.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -25,6 +25,7 @@ from ..numerics.gaussian_process import gaussian_kernel
 from ..numerics.herding import Groups, representatives
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .cross_validation import thinned
 from .goniometer import Goniometer
 from .hypotheses import Hypothesis

@@ -1,12 +1,13 @@
 """A measurement made ready for many fits: which directions and channels each stage of a fit looks at, chosen once."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..data import subsample
 from ..data.measurement import Measurement
 from ..errors import InputError, NoAnswer
+from ..records import dataclass
 from . import starting_grid, weights
 from .diagnostics import standard_errors
 from .layout import Layout

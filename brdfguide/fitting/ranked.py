@@ -1,9 +1,10 @@
 """What a ranking holds: candidates in their places, and the one to use."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 from ..finding import Finding
+from ..records import dataclass
 from .fit import Fit
 from .floor import Floor
 from .objective import SEEN

@@ -1,7 +1,7 @@
 """The JSON of `brdfguide fit` and `recommend` read back as a Surface: its shape, and what its parts must agree on."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from ..errors import InputError, NoAnswer, choices
 from ..models.surface import Surface
 from ..physics.geometry import WAVELENGTH_UM
 from ..printable import short
+from ..records import dataclass
 from ..typed_json import Schema, parsed, read_typed
 
 SHORTEST_NM = 100.0  # as of measurements

@@ -4,13 +4,14 @@ What a stray-light program calls ABg has not Harvey and Shack's shoulder, and ne
 turned into another by a fit over a stated range of |β - β0|, never by a formula, and its error is told.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from .. import models
 from ..data.measurement import Measurement
 from ..physics.geometry import Geometry, in_plane, rows
+from ..records import dataclass
 from .fit import Fit, FitOptions, fit
 
 LAWS = ("abg", "harvey-shack", "abc")

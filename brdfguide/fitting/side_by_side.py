@@ -3,7 +3,6 @@ the sphere it comes from.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +15,7 @@ from ..models.surface import Surface
 from ..physics import seen
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 SAME_DEG = 0.05  # between two directions that are one
 

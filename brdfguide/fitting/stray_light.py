@@ -3,7 +3,6 @@ what holds at another wavelength, and whether the laws of physics beside it agre
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from ..models.surface import Surface
 from ..physics import hemisphere, smooth_scatter
 from ..physics.geometry import in_plane
 from ..physics.height_spectrum import KCorrelation, SurfaceSpectrum, surface_height
+from ..records import dataclass
 from .diagnostics import derived_error
 from .ranked import Ranking, Row
 

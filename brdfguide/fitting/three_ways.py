@@ -5,12 +5,11 @@ The scan gives the spectrum of the heights (Rayleigh and Rice), and so what a pr
 have read. Each is compared in the band that it shares with the scan alone.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..physics import hemisphere, smooth_scatter
 from ..physics.height_spectrum import Spectrum, TabulatedSpectrum, profile_height
+from ..records import dataclass
 
 TOLERANCE = 0.25  # of a variance or a total: 10 % of a height or of a scatterometer's scale, twice (ours)
 LEAST_SHARED = 0.5  # of a profile's variance that has to lie in the scan's frequencies

@@ -1,10 +1,11 @@
 """Which sums are worth fitting to a surface, when nothing or only its kind is known: as the laws themselves say."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 from .. import catalog, models
 from ..errors import InputError, choices
+from ..records import dataclass
 from . import Composite, Model
 from .facts import Candidacy
 

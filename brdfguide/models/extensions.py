@@ -5,12 +5,12 @@ lobe, a law that contains one that it has, a coat, a lobe beside the others.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from .. import models
 from ..physics.fresnel import f0
+from ..records import dataclass
 from . import MOST_LOBES, Composite, Counted, Model
 from .candidates import as_metal, containing, grown, has_edge, heights, with_edge, with_heights
 from .model import Parameter, Term, counted

@@ -13,7 +13,6 @@ Source: Ribardière, Bringier, Meneveaux and Simonot 2017, "STD: Student's t-dis
 BSDFs"; the integral of the masking in this form is ours.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from math import pi
 
@@ -23,6 +22,7 @@ from ..formed import formed
 from ..numerics import chebyshev
 from ..physics import fresnel
 from ..physics.geometry import Directions, Geometry
+from ..records import dataclass
 from ._microfacet import INDEX, gradient_by, reduced
 from .facts import Candidacy, Formula, coefficients, polynomial
 from .model import Extreme, Model, Parameter, Pin, at

@@ -1,10 +1,11 @@
 """Chebyshev series of functions that are dear to compute, kept for each value of a law's parameters."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+
+from ..records import dataclass
 
 TOGETHER = 16_384  # values that are summed in one call, which fit the processor's cache
 CHOP = 1e-15  # of the greatest coefficient: smaller ones at the end of a series are dropped

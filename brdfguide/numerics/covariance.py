@@ -4,10 +4,11 @@ The residuals of a channel depend on the shared parameters and on its own; the n
 eliminating each channel's own block (Schur complement) makes 31 channels cost little more than one.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+from ..records import dataclass
 
 
 @dataclass(frozen=True)

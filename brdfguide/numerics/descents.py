@@ -12,10 +12,11 @@ Source: as in least_squares.py and trust_region.py.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
+from ..records import dataclass
 from .least_squares import MOST_DAMPING, STALL
 from .trust_region import GOOD, LEAST_DAMPING, LOOSE, POOR, TURNS
 

@@ -7,10 +7,11 @@ the values (Rasmussen and Williams 2006, "Gaussian processes for machine learnin
 lacks, Kennedy and O'Hagan 2001, "Bayesian calibration of computer models").
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+from ..records import dataclass
 
 RATIOS = np.geomspace(0.1, 1e4, 16)  # (s/n)²
 LEAST_NOISE = 1e-8  # n²

@@ -7,9 +7,9 @@ kernel's space. Points come in groups that are taken whole. (Chen, Welling and S
 herding"; by exchange, as Mak and Joseph 2018, "Support points".)
 """
 
-from dataclasses import dataclass
-
 import numpy as np
+
+from ..records import dataclass
 
 MOST_SWEEPS = 8
 

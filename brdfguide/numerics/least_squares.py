@@ -12,11 +12,11 @@ Yamashita and Fukushima 2004.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ..records import dataclass
 from .covariance import Normal
 from .trust_region import ParameterRow, Point, TrustRegion
 

@@ -8,12 +8,12 @@ Source: Levenberg 1944; Marquardt 1963; Moré 1978 ("The Levenberg-Marquardt alg
 Nielsen 1999 ("Damping parameter in Marquardt's method").
 """
 
-from dataclasses import dataclass
 from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
+from ..records import dataclass
 from .covariance import Normal
 
 LEAST_DAMPING = 1e-14  # of the squared scale of each parameter: what rounding does to the normal equations

@@ -1,9 +1,8 @@
 """Hundreds of thousands of pixels gathered into hundreds of values, evenly over the lobe."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from ..records import dataclass
 from .solids import Points
 
 THETA_H_DEG = (0.25, 80.0)  # between which ln tan θh is cut

@@ -7,12 +7,12 @@ linear sRGB, g the glare. The neutrals alone could not tell a falling light from
 white to black in one direction. The sample follows by rho = (P - g) M⁻¹/E at its place.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..numerics.least_squares import minimise
+from ..records import dataclass
 from . import chart_patches
 
 PRIOR_SLANT = 1.0  # of u0/h and v0/h about 0: most lamps stand within 45 degrees of the chart's normal (ours)

@@ -1,12 +1,11 @@
 """What a surface beside a ColorChecker reflects, from one photograph or from two with the lamp moved between them."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import InputError
 from ..finding import Finding
 from ..physics.colour import LUMINANCE
+from ..records import dataclass
 from .chart_found import Shown, by_corners, find_chart, read_chart, sample_reflectance
 from .readers import read_picture
 

@@ -1,10 +1,9 @@
 """A ColorChecker in a photograph: found by OpenCV's detector or by its four corners; its patches, and the sample."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import InputError
+from ..records import dataclass
 from . import chart_patches
 from .chart import BRIGHTEST, Chart, fit_chart
 from .picture import Photograph

@@ -8,7 +8,7 @@ Source: Marschner, Westin, Lafortune and Torrance 2000, "Image-based bidirection
 measurement", Applied Optics 39; Matusik et al. 2003, "A data-driven reflectance model".
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -17,6 +17,7 @@ from ..errors import InputError
 from ..finding import Finding
 from ..numerics.least_squares import minimise
 from ..physics.directions import FIELDS, Directions
+from ..records import dataclass
 from . import faults
 from .cells import Cells, gather, gather_blocks, highlight_alpha
 from .lamp import LIMB_PX, phase_deg, shading_residuals

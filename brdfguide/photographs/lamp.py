@@ -7,12 +7,11 @@ A point lamp at L = e/κ (e a unit vector, κ = 1/distance) lights a matt unit s
 with four unknowns: two of direction, κ and the strength S. A picture whose codes are not light shows P^g in its place.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import InputError
 from ..numerics.least_squares import minimise
+from ..records import dataclass
 from .solids import Points
 
 DARKEST = 0.05  # of the brightest, below which the shading is not looked at

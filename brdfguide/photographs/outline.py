@@ -4,11 +4,10 @@ Half of the limb is lit, whatever the lamp's direction; the shadow's edge on the
 circle. So the circle is sought that most of the boundary lies on, and then moved to where the light falls most steeply.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..errors import InputError
+from ..records import dataclass
 from .picture import Photograph
 
 COARSE = 400  # pixels across the picture in which the ball is sought

@@ -1,11 +1,12 @@
 """A photograph: the codes that its file holds, and the light that they stand for."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 import numpy as np
 
 from ..finding import Finding
+from ..records import dataclass
 
 TRANSFERS = ("srgb", "adobe", "linear")
 ADOBE_GAMMA = 563 / 256  # Adobe RGB (1998) Color Image Encoding, section 4.3.4.2

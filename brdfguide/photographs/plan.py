@@ -1,6 +1,5 @@
 """The description of a set of photographs: a YAML file with the key `photographs`, checked."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +8,7 @@ from .. import yaml_schema
 from ..errors import InputError
 from ..physics import colorchecker
 from ..physics.colour import CHANNEL_UM
+from ..records import dataclass
 from ..yaml_schema import Field
 from .lamp import position_of
 from .outline import Outline

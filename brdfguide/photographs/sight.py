@@ -1,9 +1,8 @@
 """One shot, pixel by pixel: the values f = (albedo/π) P/P_ref, and which pixels are used."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from ..records import dataclass
 from .solids import Points
 
 DARK_REFERENCE = 0.02  # of its greatest value, below which the quotient is noise

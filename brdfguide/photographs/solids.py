@@ -9,11 +9,10 @@ so that with the outline known the focal length is not needed. A rod of radius 1
 the camera's y left out of the quadratic. Lengths are in radii.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..physics.directions import Directions
+from ..records import dataclass
 
 FAR = np.inf
 

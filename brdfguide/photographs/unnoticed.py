@@ -6,13 +6,14 @@ doubt, since all values err together.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from ..finding import Finding
 from ..physics.directions import FIELDS, Directions
+from ..records import dataclass
 from .cells import Cells
 from .faults import OFF_DEG, STRAY, dark_level
 from .lamp import LIMB_PX, Lamp

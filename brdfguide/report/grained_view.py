@@ -9,13 +9,14 @@ tabulated as for a surface without a grain, over one angle more: that between th
 0, in steps over half a turn.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..exporters.exporter import ColouredSurface
 from ..models.looks import turns
 from ..physics.geometry import Geometry
+from ..records import dataclass
 
 TURNS = 16  # azimuths of the line of sight in the sample's frame, over half a turn
 THETAS = 28  # angles of the view from the normal

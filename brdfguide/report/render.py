@@ -8,13 +8,12 @@ upward direction about the line of sight, and the light reflected is tabulated o
 vectors, closer and closer to the normal. Nothing is drawn at random. The sun is a disc; a mirror shows all of it sharp.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..exporters.exporter import ColouredSurface
 from ..physics import colour
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import grained_view as grain
 from .grained_view import GrainedView, frames, grained_view, has_grain, place_in_turns, sample_turned
 from .toward_light import TURN, share_of_mirror_side, shines_back

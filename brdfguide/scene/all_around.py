@@ -8,7 +8,6 @@ few angles and interpolated, while the surroundings are looked up for every pixe
 for one pixel in a hundred, and everything stays linear in it.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import ClassVar
@@ -17,6 +16,7 @@ import numpy as np
 
 from ..numerics import sphere
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 from .surroundings import Surroundings
 
 NODES = 32  # angles of view at which the law is tabulated

@@ -5,7 +5,7 @@ judged: first its amplitudes, on the sums; where that nearly suffices, its shape
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..numerics import least_squares
 from ..physics import display
 from ..physics.display import colour_weights
 from ..physics.geometry import in_plane
+from ..records import dataclass
 from .features import MIRROR, Ablation, Features
 from .radiance import Quadrature
 

@@ -7,7 +7,6 @@ stands; at a given half vector f cos θi cos θr hardly changes with the angle a
 tabulated over both and interpolated, and the light is looked up for every pixel.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from ..numerics import sphere
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from .all_around import BLOCK, AllAround
 
 RINGS, SPOKES = 24, 36  # of half vectors

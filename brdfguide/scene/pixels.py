@@ -9,12 +9,12 @@ Half of the pixels come from the scene itself, half from the neighbourhood of ea
 so that means, percentiles and areas are those of the picture and not those of the sample (Hesterberg 1995).
 """
 
-from dataclasses import dataclass
 from math import cos, pi, radians, sin
 
 import numpy as np
 
 from ..numerics import sphere
+from ..records import dataclass
 from .scene import DirectionRange, Scene
 
 LISTED_TURNS = 24  # of a sample with a grain, for each listed pair of directions

@@ -9,7 +9,7 @@ What may differ is said by the scene; what was assumed where it is silent is `sc
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..models.cost import Saving, Time
 from ..models.looks import seen_difference, turns
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import bounds as analytic
 from . import radiance, search, validity
 from .difference import Errors, Picture, lobe_width

@@ -7,7 +7,7 @@ A light is a disc and is averaged over (`lamps`); a mirror shows it; what stands
 Everything is linear in f, so that the parts of a law can be integrated apart and added.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import pi, radians
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from ..numerics import sphere
 from ..physics.geometry import Geometry, rows
+from ..records import dataclass
 from . import lamps, pixels
 from .all_around import AllAround
 from .grained_around import GrainedAround

@@ -5,11 +5,12 @@ of a plane, the axis of a cylinder and an edge of a box; azimuths are measured i
 apart face each other across the normal. `directions.sample` turns a scene into samples.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import pi, sqrt
 
 from .. import yaml_schema
 from ..physics.display import Display
+from ..records import dataclass
 from ..yaml_schema import Field
 from .surroundings import KINDS, Surroundings, sensible_surroundings, surroundings_from_yaml
 

@@ -3,7 +3,7 @@
 Operations decide which of two is cheaper, since they are the same in every run; times are measured for what is shown.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial, reduce
 
 from ..models import cost
@@ -11,6 +11,7 @@ from ..models.cost import NO_TIME, Saving, Time
 from ..models.surface import Surface
 from ..numerics import pareto
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import bounds, radiance, substitutes
 from .difference import Errors, Picture
 from .features import MIRROR, NOTHING, Ablation, Feature, Features

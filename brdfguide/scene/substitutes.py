@@ -4,7 +4,7 @@ A substitute keeps the body of what is left of the model and replaces its lobes 
 width; whether the scene can tell is for the picture to say.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import log, sqrt, tan
 
@@ -16,6 +16,7 @@ from ..models.model import Composite, Term
 from ..models.surface import Surface
 from ..numerics import least_squares
 from ..physics.geometry import in_plane
+from ..records import dataclass
 from .difference import Picture
 
 SHAPE_PIXELS = 200  # enough for one or two shapes

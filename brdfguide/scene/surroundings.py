@@ -12,7 +12,6 @@ direction.
                them, and an even part for light that went round
 """
 
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import cos, pi, radians, sin, tan
 
@@ -20,6 +19,7 @@ import numpy as np
 
 from ..numerics import sphere
 from ..physics import colour
+from ..records import dataclass
 
 KINDS = ("uniform", "studio", "overcast", "room")
 GROUND_ALBEDO = 0.2  # of the ground under an overcast sky: grass and soil, ours

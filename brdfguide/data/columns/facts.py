@@ -1,7 +1,6 @@
 """What a name states outright: units, wavelength, angle, colour, quantity, scale, coverage factor; and what is left."""
 
-from dataclasses import dataclass
-
+from ...records import dataclass
 from .tokens import Token, tokens
 from .turning_sense import taken_sense
 from .vocabulary import (

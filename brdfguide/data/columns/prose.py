@@ -1,8 +1,8 @@
 """What titles and comments say of a table: wavelength, incidence, quantity, unit of the angles, sense of rotations."""
 
-from dataclasses import dataclass
 from itertools import pairwise
 
+from ...records import dataclass
 from .facts import spelt_out
 from .grammar import understood
 from .tokens import Token

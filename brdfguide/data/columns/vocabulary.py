@@ -3,8 +3,9 @@
 `grammar.py` reads a name by these tables, and docs/columns.md is written from them.
 """
 
-from dataclasses import dataclass
 from math import pi
+
+from ...records import dataclass
 
 
 def word_set(text: str) -> frozenset[str]:

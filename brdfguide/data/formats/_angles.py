@@ -1,10 +1,11 @@
 """Directions of light and detector out of columns of angles, in every convention that tables have."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
 from ...finding import Finding
+from ...records import dataclass
 from ..columns import prose
 from ..columns.facts import Column
 from . import _half_difference, _phase

@@ -6,12 +6,11 @@ linearly in the logarithm; beyond them there is nothing. Below the horizon the l
 interpolates toward a hole there.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...errors import InputError
 from ...physics.geometry import Geometry
+from ...records import dataclass
 from ..measurement import Measurement
 
 NODE_DEG = 1e-5  # angles nearer than this are one

@@ -1,11 +1,12 @@
 """Which column of a table is what, after --columns; those that nothing is made of, each with the reason."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ...errors import InputError, choices, nearest_words
 from ...finding import Finding
+from ...records import dataclass
 from ..columns import prose
 from ..columns.facts import Column, facts
 from ..columns.grammar import understood

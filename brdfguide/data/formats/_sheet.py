@@ -1,9 +1,10 @@
 """A text table as a header and numbers, whatever separates its cells; errors point at line and column."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
+from ...records import dataclass
 from ..columns.facts import facts
 from .format import Source, holds_number
 

@@ -3,10 +3,9 @@
 Source: "Structure of BRDF files" and "Structure of Anisotropic BSDF files", Speos user's guide (Ansys 2024).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from ...records import dataclass
 from ._hemisphere import total
 from .format import Source, check_angle, check_zenith, holds_number
 

@@ -1,11 +1,12 @@
 """Values, their doubts and their wavelengths out of the columns of a table, as BRDF [1/sr]."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ...finding import Finding
 from ...physics.colour import CHANNEL_UM
+from ...records import dataclass
 from .. import conventions
 from ..columns import prose
 from ..columns.facts import Column

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from ...errors import InputError, NothingLeft
 from ...finding import Finding
 from ...physics.colour import CHANNEL_UM
 from ...physics.geometry import Geometry, rows
+from ...records import dataclass
 from ..columns import prose
 from ..measurement import Measurement
 

@@ -7,7 +7,7 @@ Numbers of nodes: ours.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from ...data.measurement import Measurement
 from ...errors import InputError
 from ...physics.colour import CHANNEL_UM
 from ...physics.geometry import Geometry, rows
+from ...records import dataclass
 from .._directions import half_width, off_peak
 from ..exporter import ColouredSurface, Export, Exporter, Statement, refuse_mirror
 from .blurred import blurred

@@ -1,12 +1,12 @@
 """A surface as a table holds it, in its channels or in one, and what that costs."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from ...physics import colour
 from ...physics.geometry import Geometry
+from ...records import dataclass
 from .._directions import judged_over, rms_ln
 from .._shown import seen_of
 from ..exporter import ColouredSurface, Statement, status_of

@@ -5,9 +5,9 @@ density √(|S''| / 8 e S), and their number is its integral (de Boor 1973, "Goo
 knots"). Incidences are taken one by one instead, each as far from the last as the error allows.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
+
+from ...records import dataclass
 
 GROWTH = 0.08  # of a step, per step: a straight line in s is one in u only where steps are alike
 

@@ -12,13 +12,14 @@ acquisition and rendering"), as Mitsuba 3.9 reads it. Numbers of nodes: ours.
 """
 
 import struct
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
 from ...errors import NoAnswer
 from ...physics.geometry import Geometry, rows
+from ...records import dataclass
 from .._directions import off_peak, rms_ln, too_dark
 from .placement import Warp, density, march
 

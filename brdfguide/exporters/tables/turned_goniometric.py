@@ -7,7 +7,7 @@ in 95 of 100 directions, or the table is as large as such programs take. Numbers
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from ...data import formats
 from ...data.measurement import Measurement
 from ...physics.geometry import Geometry, rows
+from ...records import dataclass
 from .. import _grained
 from .._directions import half_width, off_peak
 from ..exporter import ColouredSurface, Export, Exporter, refuse_mirror

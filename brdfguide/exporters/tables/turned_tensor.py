@@ -11,13 +11,14 @@ Layout: as in `tensor`; Mitsuba 3.9's reading of anisotropic files. Numbers of n
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 
 from ...errors import NoAnswer
 from ...physics.geometry import Geometry, rows
+from ...records import dataclass
 from .._directions import off_peak, rms_ln
 from .tensor import CLOSE, FAINT, LEAST
 

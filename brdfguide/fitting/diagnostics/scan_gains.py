@@ -12,11 +12,11 @@ gain far below the noise of one value, which neighbours that err together do not
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from ...numerics.least_squares import Minimum
+from ...records import dataclass
 from ..layout import Layout
 from ..objective import Misfit
 from ..reading import reading

@@ -1,7 +1,5 @@
 """Scatter of polished surfaces as documents: heights and total scatter, spectra, and one scatter in every law."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...data.measurement import Measurement
@@ -20,6 +18,7 @@ from ...physics.height_spectrum import (
     profile_slope,
     surface_height,
 )
+from ...records import dataclass
 from .plain import plain
 
 SCHEMA = "brdfguide/scatter/1"

@@ -1,7 +1,7 @@
 """What the explorer's page knows: surfaces with their knobs, a measurement's points, the contours of emergence."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ...fitting.prepared import prepare
 from ...models.model import Parameter
 from ...physics import emergence
 from ...printable import label
+from ...records import dataclass
 from .. import render
 from ..figures.lines import nominal_channel
 from ..figures.panels import panels

@@ -1,7 +1,6 @@
 """A grain as a figure: scans under turns of the sample, the peak over slopes with its ellipse, widths all around."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
@@ -15,6 +14,7 @@ from ...fitting.reading import reading
 from ...models.surface import Surface
 from ...physics.aperture import Instrument
 from ...physics.geometry import Geometry, rows
+from ...records import dataclass
 from . import style
 from .lines import Line, grid_of, nominal_channel, without_zeros
 

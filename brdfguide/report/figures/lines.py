@@ -3,7 +3,6 @@
 Loads no plotting library.
 """
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from ...fitting.reading import reading
 from ...models.surface import Surface
 from ...physics.aperture import Instrument, solid_angle_of
 from ...physics.geometry import in_plane, rows
+from ...records import dataclass
 from .palette import Stroke, stroke
 
 NOMINAL_UM = 0.55  # the wavelength the report shows

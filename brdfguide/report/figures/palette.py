@@ -4,8 +4,9 @@ Colours are Okabe and Ito's, told apart by colour-blind readers; dashes and mark
 still works. Loads no plotting library.
 """
 
-from dataclasses import dataclass
 from hashlib import md5
+
+from ...records import dataclass
 
 LIGHT, DARK = THEMES = ("light", "dark")
 INK = "#1f2328"  # text, axes and data; the report page turns it over in the dark

@@ -4,13 +4,14 @@ A slice is interpolated where the data are smooth, in the angles of the half vec
 1998), and never beyond them.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ...data.measurement import Measurement
 from ...data.turning import turn_of_each
 from ...physics.geometry import Geometry, in_plane, rows
+from ...records import dataclass
 
 # (azimuth off the plane, spread of theta_i) [deg]: as narrow a slice of the data as still has points in it
 SCAN, *NEARLY = ((0.1, 0.05), (2.0, 0.5), (5.0, 2.5), (10.0, 5.0))

@@ -1,7 +1,6 @@
 """Previews side by side, with what differs between them amplified, as one picture of exact pixels."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from io import BytesIO
@@ -19,6 +18,7 @@ from ...physics.colour import luminance
 from ...physics.display import Display
 from ...physics.geometry import WAVELENGTH_UM
 from ...printable import short
+from ...records import dataclass
 from .. import render
 from . import palette
 

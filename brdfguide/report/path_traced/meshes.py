@@ -4,10 +4,11 @@ Lengths are free; y points up. Every body is smooth: its normals are those of th
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
+from ...records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,5 @@
 """Figures 3, 6, 8, 10 and 12 of the guide, rendered; and what its text says of each as numbers on their pixels."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ... import exporters, models
@@ -9,6 +7,7 @@ from ...data.measurement import Measurement
 from ...fitting import fit
 from ...models.surface import Surface
 from ...physics.colour import luminance
+from ...records import dataclass
 from .. import render
 from ..figures.spheres import noticeable_steps
 from . import meshes

@@ -2,7 +2,6 @@
 
 import ast
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -11,6 +10,7 @@ import numpy as np
 from ... import exporters
 from ...errors import InputError
 from ...exporters.exporter import ColouredSurface
+from ...records import dataclass
 from .meshes import Mesh
 
 SKY_ROWS = 512

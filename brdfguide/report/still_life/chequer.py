@@ -1,10 +1,10 @@
 """The floor: a chequer, a grey card on it, and the shade that objects throw, all in the light of the surroundings."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from ...records import dataclass
 from .light_map import Lighting
 from .standing import Thing
 

@@ -4,13 +4,13 @@ What is left out: objects neither shade nor reflect one another or themselves, a
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ...exporters.exporter import ColouredSurface
 from ...physics.geometry import Geometry
+from ...records import dataclass
 from ..grained_view import grain_axis, has_grain
 from ..toward_light import TURN
 from . import lobe_cells as lobes

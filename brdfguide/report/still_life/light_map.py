@@ -4,10 +4,11 @@ A lobe is summed cell by cell, and each cell looks up the map blurred to its own
 and a bright lamp that falls between the cells is not missed.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+from ...records import dataclass
 
 ROWS = 384  # of the sharp map, 0.47 deg each
 WIDTHS = np.radians(0.7) * np.sqrt(2.0) ** np.arange(13)  # standard deviation along each axis, up to 45 deg

@@ -6,12 +6,13 @@ from it they are of the incident direction. Both quadratures cover a belt of til
     dω_i = 4 cos d dω_h,  dω_h = t dt dφ/(1 + t²)^{3/2},  t = tan of the half vector's tilt
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ...exporters.exporter import ColouredSurface
 from ...physics.geometry import Geometry
+from ...records import dataclass
 from ..grained_view import sample_turned
 from ..toward_light import TURN, share_of_mirror_side, shines_back
 

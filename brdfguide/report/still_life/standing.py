@@ -4,9 +4,10 @@ Lengths are in radii of the sphere; x points right, y up from the floor, z towar
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
+
+from ...records import dataclass
 
 SHEET_RADIUS, SHEET_WIDTH = 1.25, 2.9
 DISC_TILT, DISC_TURN = np.radians(
