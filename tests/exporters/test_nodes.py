@@ -10,7 +10,10 @@ import pytest
 from brdfguide import exporters
 from brdfguide.errors import NoAnswer
 from brdfguide.exporters import coloured
+from brdfguide.exporters._refit import Goal, TargetModel, least_of_amplitude, refit
+from brdfguide.models.model import Parameter
 from brdfguide.models.surface import Surface
+from brdfguide.physics.geometry import in_plane, rows
 
 OWN = {
     "openpbr": {"base_color": [0.8, 0.1, 0.05], "specular_roughness": 0.4, "coat_weight": 0.6, "coat_roughness": 0.2},
@@ -151,3 +154,13 @@ def test_a_rough_coat_over_flakes_stays_a_coat():
     statement = exporters.export("openpbr", of("ggx+coated:flakes", {"ggx.alpha": 0.1})).statement
     assert statement.written["coat_weight"] == 1.0 and statement.written["coat_roughness"] > 0.2
     assert not any("become one" in each for each in statement.lost)
+
+
+def test_what_no_amplitude_can_take_away_is_known_without_a_search():
+    geom = rows(in_plane(40.0, np.linspace(-70, 70, 60)))
+    amplitude = Parameter("albedo", 0.5, 0.0, 1.0, per_channel=True, linear=True)
+    law = TargetModel((amplitude,), lambda geom, albedo: albedo * np.ones(geom.shape), broadcasts=True)
+    wanted = np.exp(0.3 * np.sin(geom.theta_r_deg)) * np.array([0.2, 0.1, 0.05])
+    goal = Goal(geom, wanted)
+    assert np.isclose(least_of_amplitude(law, goal), refit(law, goal)[0], rtol=1e-3)
+    assert least_of_amplitude(TargetModel((), law.brdf, broadcasts=True), goal) == 0.0

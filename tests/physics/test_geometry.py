@@ -140,3 +140,8 @@ def test_azimuths_of_vectors_are_formed_when_they_are_asked_for():
     np.testing.assert_array_equal(geom.where_lit().phi_deg, np.where(geom.lit, phi, 180.0))
     for again in (pickle.loads(pickle.dumps(geom)), geom.swapped().swapped(), geom.light_turned().light_turned()):
         np.testing.assert_allclose(again.v_xy, geom.v_xy, atol=1e-12)
+
+
+def test_directions_that_are_rows_stay_what_they_are():
+    geom = rows(Geometry.from_degrees(45.0, 0.0, [10.0, 20.0], 180.0))
+    assert rows(geom) is geom and rows(Geometry.from_degrees(45.0, 0.0, 10.0, 180.0)).shape == (1, 1)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mpmath import erfc, exp, mp, mpf, pi, sqrt, tan
 
-from brdfguide.physics import microfacet
+from brdfguide.physics import grain, microfacet
 from brdfguide.physics.geometry import Geometry, in_plane
 
 DENSITIES = {"ggx": microfacet.ggx, "beckmann": microfacet.beckmann}
@@ -69,3 +69,11 @@ def test_facets_at_random_heights_hide_more_than_correlated_ones_and_none_at_the
     assert np.all(microfacet.ggx_shape_uncorrelated(SOME, 0.5) <= microfacet.ggx_shape(SOME, 0.5) * (1 + 1e-15))
     normal = in_plane(0.0, 0.0)
     assert SHAPES[kind](normal, 0.5) == pytest.approx(DENSITIES[kind](normal, 0.5) / 4, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "shape", [grain.grained_density, grain.grained_shape, grain.grained_shape_uncorrelated], ids=lambda f: f.__name__
+)
+def test_facets_without_a_grain_need_no_azimuths_and_are_the_same_to_every_digit(shape):
+    round_, about_axes = shape(SOME, 0.3, 0.3, 0.7), shape(SOME, 0.3, 0.3, np.array([[0.7], [0.7]]))
+    assert np.array_equal(np.broadcast_to(round_, about_axes.shape), about_axes)
