@@ -146,7 +146,7 @@ def _held(angles: list[float]) -> list[int]:
     return numbers
 
 
-def without_drift(data: Readings, found: dict) -> Readings:
+def undrifted(data: Readings, found: dict) -> Readings:
     """The values without the gains of their scans, the directions with the arm's zero, as a flag `instrument` tells."""
     gains = _gains(found)
     at_plane = all(_off_plane_deg(each) < 0.1 for each in data.angles)

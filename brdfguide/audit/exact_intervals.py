@@ -262,7 +262,7 @@ class _Equations:
     def _alike(self) -> tuple[mpf, mpf, mpf]:
         """Correlation of neighbours, its size in standard deviations, and how many channels say the same."""
         rows = self.part.residuals
-        common = common_channels(rows)
+        common = channels_alike(rows)
         worst, score = mpf(0), mpf(0)
         for order in orders_of_neighbours(self.part.data):
             pairs = [
@@ -321,7 +321,7 @@ def _by_stated_errors(data: Readings) -> list[list]:
     return [[mpf(0) if v is None else 1 / mpf(min(max(v, least), MOST_ERROR)) ** 2 for v in row] for row in relative]
 
 
-def common_channels(rows: list[list]):
+def channels_alike(rows: list[list]):
     """How many channels say the same: Σ r²_cd over the number of channels, less what chance gives."""
     channels = len(rows[0])
     if channels == 1:

@@ -157,7 +157,7 @@ class _Row:
         self.row, self.place, self.grey, self.metric = row, place, grey, metric
         self.surface = surface_of(row["model"], row["parameters"])
         drift = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
-        left = data if drift is None else exact_errors.without_drift(data, drift)
+        left = data if drift is None else exact_errors.undrifted(data, drift)
         self.data = data if drift is None else replace(data, taken=left.told)
         self.residuals = exact_errors.exact_residuals(self.surface, left)
         self.rms = exact_errors.exact_rms(self.residuals, data.share)
