@@ -1,6 +1,6 @@
 """A folder is a registry: its files are the members, their names are what users type."""
 
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib import import_module
 from pathlib import Path
 
@@ -48,4 +48,10 @@ def load(folder: str, name: str):
     """The module of member `name`. Raises InputError with the nearest names."""
     if name not in _members(folder):
         raise choices(folder.rpartition(".")[2].removesuffix("s"), name, names(folder))
-    return import_module(f".{folder}.{_file(name).removesuffix('.py')}", __package__)
+    return _imported(f".{folder}.{_file(name).removesuffix('.py')}")
+
+
+@cache
+def _imported(name: str):
+    """A module of the package; to ask the import system again costs as much as to open a file."""
+    return import_module(name, __package__)

@@ -178,5 +178,10 @@ def _difference(model, geom: Geometry, values: dict, name: str, parameter: Param
     at = to_coordinate(parameter, np.asarray(values[name], float))
     low, high = to_coordinate(parameter, parameter.low), to_coordinate(parameter, parameter.high)
     above, below = np.minimum(at + STEP, high), np.maximum(at - STEP, low)
+    if np.ndim(at) == 3 and len(at) * geom.shape[-1] <= TOGETHER:  # both ends of many surfaces in one call
+        count = len(at)
+        twice = {key: np.concatenate((each, each)) if np.ndim(each) == 3 else each for key, each in values.items()}
+        both = model(geom, **{**twice, name: from_coordinate(parameter, np.concatenate((above, below)))})
+        return (both[:count] - both[count:]) / (above - below)
     ends = [model(geom, **{**values, name: from_coordinate(parameter, end)}) for end in (above, below)]
     return (ends[0] - ends[1]) / (above - below)

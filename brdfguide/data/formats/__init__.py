@@ -6,7 +6,7 @@ read("steel.csv") -> Measurement
 import os
 import re
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -158,8 +158,7 @@ def _of_its_size(stream, head: bytes) -> tuple[Format, bytearray] | None:
     if not NO_TEXT.search(head):
         return None
     every, plain = members(), _open.plain_head(head)
-    claimed = any(each.recognises(plain) for each in every if each.name != "table")
-    if claimed or _unread.what_instead(plain):
+    if _claims(plain) or _unread.what_instead(plain):
         return None
     most = max(each.exact_bytes or 0 for each in every)
     data = bytearray(head)
@@ -243,7 +242,7 @@ def recognised(head: bytes, name: str) -> Format:
     if not head.strip():
         raise InputError(f"{name}: the file is empty")
     every, head = members(), _open.plain_head(head)
-    claims = [each for each in every if each.name != "table" and each.recognises(head)]
+    claims = _claims(head)
     if len(claims) > 1:
         raise InputError(
             f"{name}: two readers claim this file: {' and '.join(each.name for each in claims)}; it follows "
@@ -257,6 +256,12 @@ def recognised(head: bytes, name: str) -> Format:
             f"{name}: it is binary, and no reader knows it; wanted text with a header row, or a known table format"
         )
     return claims[0] if claims else table
+
+
+@lru_cache(maxsize=1)  # a file is asked for its size, its format and what lies beside it, one after the other
+def _claims(head: bytes) -> tuple[Format, ...]:
+    """The formats that claim these first bytes, but for the table that any text might be."""
+    return tuple(each for each in members() if each.name != "table" and each.recognises(head))
 
 
 def finished(measurement: Measurement, format: Format, options: Options) -> Measurement:
