@@ -56,7 +56,7 @@ def compare_stderrs(row: FittedRow, place: str, data: Readings, found: Compariso
         return
     if dim and (data.by_scan or data.missed is None or row.metric not in ("ln", "seen")):
         return
-    errors = _Equations(row, _with_values(data, row)).stderrs()
+    errors = _Equations(row, _Part(*_with_values(data, row.residuals), row.metric)).stderrs()
     close = UNDER_A_COAT if any(each.coated for each in row.surface.parts) else STEEP
     for key, channel, right, lost in errors:
         told = row.parameters[key]["stderr"]
@@ -76,16 +76,17 @@ class _Part:
     metric: str
 
 
-def _with_values(data: Readings, row: FittedRow) -> _Part:
+def _with_values(data: Readings, residuals: list[list]) -> tuple[Readings, list[list]]:
+    """The directions where a fit looks at a value in any channel, and the residuals there."""
     kept = [place for place, known in enumerate(data.looked_at) if any(known)]
-    stated = None if data.stated is None else tuple(data.stated[place] for place in kept)
     few = replace(
         data,
         angles=tuple(data.angles[place] for place in kept),
         values=tuple(data.values[place] for place in kept),
-        stated=stated,
+        stated=None if data.stated is None else tuple(data.stated[place] for place in kept),
+        taken=None if data.taken is None else [data.taken[place] for place in kept],
     )
-    return _Part(few, [row.residuals[place] for place in kept], row.metric)
+    return few, [residuals[place] for place in kept]
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,7 +218,7 @@ class _Equations:
         residual = self.weighed[0]
         free = len(self.columns)
         variance = fsum(r * r for r in residual.values()) / max(len(self.values) - free, 1)
-        correlation, score, common = self._alike()
+        correlation, score, common = alike_neighbours(self.part.data, self.part.residuals)
         wider = (1 + correlation) / (1 - min(correlation, mpf(MOST_CORRELATED)))
         variances = [wider * variance * each for each in self._spread(inverse)]
         variances[: len(shared)] = [common * each for each in variances[: len(shared)]]
@@ -259,26 +260,6 @@ class _Equations:
         both = inverse * middle * inverse
         return [both[i, i] for i in range(count)]
 
-    def _alike(self) -> tuple[mpf, mpf, mpf]:
-        """Correlation of neighbours, its size in standard deviations, and how many channels say the same."""
-        rows = self.part.residuals
-        common = channels_alike(rows)
-        worst, score = mpf(0), mpf(0)
-        for order in orders_of_neighbours(self.part.data):
-            pairs = [
-                (a, b)
-                for one, other in zip(order[1:], order, strict=False)
-                for a, b in zip(rows[one], rows[other], strict=True)
-                if a is not None and b is not None
-            ]
-            if len(pairs) < FEWEST_PAIRS:
-                continue
-            power = fsum(a * a + b * b for a, b in pairs) / 2
-            correlation = fdot(pairs) / power if power else mpf(0)
-            if correlation > worst:
-                worst, score = correlation, correlation * sqrt(len(pairs) / common)
-        return worst, score, common
-
     def _pulled(self, inverse) -> list:
         """What blocks of neighbours pull each number by, squared; the most over the ways to cut blocks."""
         residual, count = self.weighed[0], len(self.columns)
@@ -319,6 +300,36 @@ def _by_stated_errors(data: Readings) -> list[list]:
     ]
     least = max(0.1 * median(v for v in clear if v is not None), LEAST_ERROR)
     return [[mpf(0) if v is None else 1 / mpf(min(max(v, least), MOST_ERROR)) ** 2 for v in row] for row in relative]
+
+
+def alike_neighbours(data: Readings, rows: list[list]) -> tuple[mpf, mpf, mpf]:
+    """Correlation of neighbours, its size in standard deviations, and how many channels say the same."""
+    common = channels_alike(rows)
+    worst, score = mpf(0), mpf(0)
+    for order in orders_of_neighbours(data):
+        pairs = [
+            (a, b)
+            for one, other in zip(order[1:], order, strict=False)
+            for a, b in zip(rows[one], rows[other], strict=True)
+            if a is not None and b is not None
+        ]
+        if len(pairs) < FEWEST_PAIRS:
+            continue
+        power = fsum(a * a + b * b for a, b in pairs) / 2
+        correlation = fdot(pairs) / power if power else mpf(0)
+        if correlation > worst:
+            worst, score = correlation, correlation * sqrt(len(pairs) / common)
+    return worst, score, common
+
+
+def compare_discrepancy(told: dict, residuals: list[list], place: str, data: Readings, found: Comparisons) -> None:
+    """How far neighbours err together, as a flag `discrepancy` tells it."""
+    if len(data.angles) > MOST_SAMPLES:
+        return
+    few, rows = _with_values(data, residuals)
+    correlation, score, _ = alike_neighbours(few, rows)
+    found.check(f"{place}.correlation", told["correlation"], correlation)
+    found.check(f"{place}.z", told["z"], score)
 
 
 def channels_alike(rows: list[list]):

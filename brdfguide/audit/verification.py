@@ -1,9 +1,9 @@
 """An answer of `fit` derived again from the numbers it prints and the data: which of them agree, and which do not.
 
 Parameters are taken as printed; from them, with mpmath and the laws of `textbook`, follow residuals, errors,
-differences and what stands beside them: growth, the price out of the plane, what is told twice. What a fit found on
-its way (held-out errors, standard errors, floors) cannot follow from its answer: that is said, and only the answer's
-digest holds it.
+differences and what stands beside them: standard errors, growth, the price out of the plane, what is told twice. What a
+fit found on its way (held-out errors, floors) cannot follow from its answer: that is said, and only the answer's digest
+holds it.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,7 +16,7 @@ from ..errors import InputError
 from ..records import dataclass
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
-from .exact_intervals import FittedRow, compare_stderrs
+from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
 from .exact_surface import NoLaw, surface_of
 from .rederived import Comparisons, Rederived
 
@@ -197,7 +197,8 @@ class _Row:
                 found.check(f"{place}.flags.instrument.gains_rms", flag["numbers"]["gains_rms"], spread)
 
     def _discrepancy(self, told: dict, place: str, found: Comparisons) -> None:
-        """Where each number follows from the others: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""
+        """How neighbours err together, and what follows: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""
+        compare_discrepancy(told, self.residuals, place, self.data, found)
         plain = exact_errors.exact_rms(self.residuals, [mpf(1)] * len(self.residuals))
         part = plain * sqrt(mpf(told["correlation"]))
         found.check(f"{place}.systematic_rms_ln", told["systematic_rms_ln"], part)

@@ -85,6 +85,16 @@ def test_so_is_one_of_values_weighed_by_their_errors_and_by_scan(noise):
     assert len(stderrs(found)) == printed(answer[1])
 
 
+@pytest.mark.parametrize("number", ["correlation", "z", "chance", "systematic_rms_ln"])
+def test_how_neighbours_err_together_is_derived(number):
+    answer = answered(made(), ("lambertian+ward",))
+    changed = deepcopy(answer[1])
+    flag = next(each for each in changed["ranking"][0]["flags"] if each["code"] == "discrepancy")
+    flag["numbers"][number] = _one_digit_off(flag["numbers"][number])
+    wrong = [each.place for each in verified((answer[0], changed)).wrong]
+    assert not verified(answer).wrong and f"ranking[0].flags.discrepancy.{number}" in wrong
+
+
 @pytest.mark.parametrize("stated", [False, True])
 def test_so_is_one_of_values_too_dim_for_their_logarithm(stated):
     run = dim_run(0.02, 0.0005, 1)
