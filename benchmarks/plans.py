@@ -68,7 +68,7 @@ def _of_table(name, table, judged, blind, draws: int) -> dict:
         own = planning.plan_everywhere(
             planning.evenly(among, 80.0), Goniometer(), hypotheses.unknown(), count, among=among
         ).geom
-        told[f"{count} among its own"] = cost(nearest(table, own, either_way=True))
+        told[f"{count} among its own"] = cost(nearest(table, own))
     random = np.random.default_rng(26)
     chance = [cost(np.sort(random.choice(len(table.brdf), 16, replace=False))) for _ in range(draws)]
     cells = [f"{told[each]:.3f}" for each in BARS]

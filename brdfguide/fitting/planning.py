@@ -41,7 +41,7 @@ SQUARES = 0.5  # how much it counts that the derivatives' own products are right
 LEAST = 1e-6  # of the largest strength, of a combination of parameters
 APART_DEG = 3.0  # between two directions of a plan
 MIRROR_DEG = 0.1  # tilt of the half vector within which of the least that is offered a direction is the mirror's
-SEES_MIRROR = 16  # directions from which one is the mirror's: a narrow lobe is seen nowhere else
+SEES_MIRROR = 16  # directions from which one is the mirror's, unless a file offers them: narrow lobes are seen there
 BLOCK = 8  # directions after which one may stop, and plan again
 MOST_OFFERED = 1500  # directions to choose from
 MOST_MEASURED = 400  # directions of earlier data that count
@@ -174,7 +174,7 @@ def plan_everywhere(
     there = list(range(len(choice), len(numbers)))
     allowed = np.arange(len(numbers)) < len(choice)
     near = _too_near(everywhere.geom, numbers)
-    one_of = None if scans else _mirror(everywhere.geom, numbers, allowed, budget)
+    one_of = None if scans or among is not None else _mirror(everywhere.geom, numbers, allowed, budget)
     picked = representatives(everywhere.groups(numbers, squares=True), budget, allowed, near, there, one_of)
     told = everywhere.groups(numbers, squares=False)
 
