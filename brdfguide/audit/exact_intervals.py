@@ -11,7 +11,7 @@ of the caller, by the parameters themselves: a linear change of coordinates chan
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import hypot
 from statistics import median
 
@@ -79,6 +79,8 @@ class _Part:
 def _with_values(data: Readings, residuals: list[list]) -> tuple[Readings, list[list]]:
     """The directions where a fit looks at a value in any channel, and the residuals there."""
     kept = [place for place, known in enumerate(data.looked_at) if any(known)]
+    if len(kept) == len(data.angles):
+        return data, residuals
     few = replace(
         data,
         angles=tuple(data.angles[place] for place in kept),
@@ -348,6 +350,7 @@ def channels_alike(rows: list[list]):
     return min(max(total / channels - chance, mpf(1)), mpf(channels))
 
 
+@lru_cache(maxsize=4)
 def orders_of_neighbours(data: Readings) -> list[list[int]]:
     """Rows along scans, by tilt of the half vector, by half angle, by reflected angle; those alike as in the file."""
     half = [float(sight.pair.cos_d) for sight in data.sights]
@@ -362,6 +365,7 @@ def orders_of_neighbours(data: Readings) -> list[list[int]]:
     ]
 
 
+@lru_cache(maxsize=4)
 def ways_to_cut(data: Readings) -> list[list[int]]:
     """The number of the block of each row: along scans by incidence, in the other orders evenly."""
     ways = [neighbours_of_scans(data)]
