@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import brdfguide
 from brdfguide import models
 from brdfguide.data import examine
 from brdfguide.data.measurement import Measurement
@@ -131,6 +132,13 @@ def test_one_scan_that_is_too_high_holds_the_metal_and_gives_the_width_along_the
     found = fitting.fit(one, measurement)
     assert found.values["beckmann-aniso.alpha_x"] == pytest.approx(0.3, rel=0.03)
     assert found.values["beckmann-aniso.alpha_y"] == pytest.approx(0.06, rel=0.25)  # F is 0.8 there, and was 0.92
+
+
+@pytest.mark.parametrize("scan", [1, 2])
+def test_what_hangs_on_a_number_that_one_scan_does_not_tell_has_no_error(data, scan):
+    """Of a matrix that cannot be inverted, by rounding, no root is drawn."""
+    answer = brdfguide.fit(data / "anisotropic" / f"brushed_aluminium_scan_{scan}.csv")
+    assert answer.document["ranking"]
 
 
 def test_where_the_grain_is_not_told_the_next_scan_is_of_the_turned_sample():

@@ -33,7 +33,10 @@ def ln_stderrs(fit: Fit, measurement: Measurement, numbers: Sequence[Callable[[M
         return [float("inf")] * len(numbers)
     inverse = np.linalg.pinv((slopes[known] / size).T @ (slopes[known] / size))
     covariance = inverse + _by_gains(fit, measurement, inverse, slopes / size)
-    spread = np.sqrt(np.diag(covariance))
+    variances = np.diag(covariance)
+    if not np.all(variances > 0):  # of a matrix that cannot be inverted, by rounding
+        return [float("inf")] * len(numbers)
+    spread = np.sqrt(variances)
     correlation = covariance / spread / spread[:, None]
     errors = np.array([np.ravel(fit.stderr[key])[place] for key, place in free])
     found = []
