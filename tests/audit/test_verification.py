@@ -37,7 +37,7 @@ CODE = (
 )
 SHARED = {
     *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".rederived"),
-    *("..errors", "..data.measurement"),
+    *("..errors", "..records", "..data.measurement"),
 }
 
 
