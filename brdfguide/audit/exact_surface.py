@@ -29,6 +29,10 @@ class NoLaw(Exception):
     """A law that is not written down a second time."""
 
 
+class RoundingDecides(Exception):
+    """A lobe about the mirror direction ends, or does not, in a direction at right angles to that."""
+
+
 @dataclass(frozen=True)
 class TermInAnswer:
     """One term: a law, where its numbers stand in the answer, and whether a coat lies over it."""

@@ -17,7 +17,7 @@ from ..records import dataclass
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
-from .exact_surface import NoLaw, surface_of
+from .exact_surface import NoLaw, RoundingDecides, surface_of
 from .rederived import Comparisons, Rederived
 
 DIGITS = 30  # of the arithmetic
@@ -69,7 +69,8 @@ def verify(
                 rows[place] = _Row(row, f"ranking[{place}]", data, grey, answer["metric"])
             except NoLaw as missing:
                 left[row["candidate"]] = f"no law called {missing} is written down a second time"
-                continue
+            except RoundingDecides:
+                left[row["candidate"]] = "its lobe ends where some directions lie: rounding decides on which side"
         for each in rows.values():
             each.errors(found)
         _differences(rows, len(rows) == len(answer["ranking"]), found)

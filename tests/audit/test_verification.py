@@ -97,6 +97,15 @@ def test_several_channels_through_an_aperture_hold_too():
     assert not result.wrong and len(result.derived) > 40
 
 
+def test_a_lobe_that_ends_in_a_direction_that_was_measured_is_left():
+    """At 90 degrees from the mirror direction 1e-17 or less decides between 1e-300 and the lobe's end."""
+    model = models.get("lambertian+ggx")
+    made = synthetic.surface(model, synthetic.scan(theta_i=(20, 40), step=10.0), model.defaults(), noise=0.02)
+    found = fit(made, ("phong", "ggx"), timing=False)
+    result = verified((found.measurement, found.document))
+    assert result.left.keys() == {"phong"} and not result.wrong and result.derived
+
+
 GRAINED = ("he-torrance-aniso", "stam", "ggx-aniso")
 
 
