@@ -9,14 +9,12 @@ from dataclasses import replace
 from functools import cached_property
 from statistics import median
 
-from mpmath import cbrt, cos, exp, fabs, fsum, log, mpf, pi, radians, sin, sqrt
+from mpmath import cbrt, cos, exp, fsum, log, mpf, pi, radians, sin, sqrt
 
 from ..records import dataclass
 from .exact_surface import ExactReading, ExactSurface, RoundingDecides
 
 SMALLEST = mpf("1e-300")  # a law that gives less is taken here
-DARK = mpf("1e-20")  # [1/sr], below which no body and no other lobe is seen
-EDGE = mpf("1e-12")  # cosine to the mirror direction, below which a double does not tell its sign
 LARGEST = 1e100  # [1/sr]; beyond, and below its inverse, is no measurement
 LIMIT_DEG = 80  # beyond, S does not look
 APART_DEG = 0.25  # between two incidences of scans
@@ -197,7 +195,7 @@ def exact_residuals(surface: ExactSurface, data: Readings) -> list[list]:
 def _seen(surface: ExactSurface, sight: ExactReading, channel: int, wavelength):
     """What a detector reports, SMALLEST at least."""
     read = sight.reading(surface, channel, wavelength)
-    if read < DARK and fabs(sight.pair.cos_m) < EDGE:
+    if surface.ends_by_rounding(sight.pair, channel, read):
         raise RoundingDecides
     return max(read, SMALLEST)
 

@@ -8,7 +8,7 @@ The expression is parsed anew, so that a mistake in how the program understands 
 from dataclasses import field, replace
 from functools import cached_property
 
-from mpmath import asin, cos, mpf, pi, radians, sin, sqrt
+from mpmath import asin, cos, fabs, mpf, pi, radians, sin, sqrt
 
 from ..records import dataclass
 from . import textbook_grain, textbook_more
@@ -22,6 +22,9 @@ SHORT = {"he": "he-torrance"}
 KNOWN = {*textbook_more.LAWS, *textbook_more.ROUGHER} - {"ggx-ms", "cylinders"}
 COAT = ("coat.n", "coat.depth")
 STEP = mpf("1e-15")  # relative, for differences: of 30 digits fifteen are left
+ENDING = {"phong", "phong-lewis"}  # lobes that end at right angles to the mirror direction
+EDGE = mpf("1e-12")  # cosine to that direction, below which a double does not tell its sign
+SEEN = mpf("1e-10")  # share of what is read from which on a lobe counts there
 LINEAR = {"ks", "rho_s", "scale", "flake", "rho"}  # which laws are proportional to
 
 
@@ -107,6 +110,13 @@ class ExactSurface:
             return textbook_more.evaluated(part.law, pair, values, wavelength)
         n, depth = (self.at(key, channel) for key in COAT)
         return textbook_more.coated(pair, part.law, values, n, depth, wavelength)
+
+    def ends_by_rounding(self, pair: ExactDirections, channel: int, read) -> bool:
+        """Whether a lobe ends in this direction, or does not, by less than a double tells."""
+        if fabs(pair.cos_m) > EDGE:
+            return False
+        ending = (self._numbers_of(each, channel) for each in self.parts if each.law in ENDING)
+        return any(each["ks"] * EDGE ** each["exponent"] > SEEN * read for each in ending)
 
     def mirror(self, pair: ExactDirections, channel: int, wavelength):
         """Reflectance left to the mirror direction."""
