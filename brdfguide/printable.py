@@ -11,6 +11,7 @@ MOST_OF_A_WORD = 300  # a path has that much
 MOST_OF_A_COMMENT, BYTES_OF_A_COMMENT = 1800, 1900  # of a line of it, such as the command that made a file
 MOST_LINES = 60  # of an error
 MOST_OF_A_NAME = 80  # letters of an identifier, and of what is quoted in a sentence
+LEAST_PERCENT = 1e-3  # what is less is printed as none
 MOST_BYTES = 255  # of a file's name, where file systems end
 SHORT = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 # Words of the languages that we write; a name may be one of them, an identifier may not.
@@ -180,3 +181,10 @@ def _plain(letter: str) -> str:
     if found or combining(letter):
         return found
     return _number(ord(letter)) if letter.isprintable() else _letter(letter)
+
+
+def off_words(percent: float) -> str:
+    """How far off a model typically is; what is no longer a percentage as a factor."""
+    if percent < 9.95:
+        return f"{percent if percent >= LEAST_PERCENT else 0:.2g} %"
+    return f"{percent:.0f} %" if percent < 99.5 else f"a factor {min(1 + percent / 100, 1e9):.2g}"

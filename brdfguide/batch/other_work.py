@@ -14,10 +14,10 @@ from ..files import folder as make_folder
 from ..files import write_whole
 from ..fitting import saved
 from ..opening import Held, exists
+from ..printable import off_words
 from ..records import dataclass
 from ..report.documents import inspection, recommendation
 from ..report.documents.plain import plain
-from ..report.text.values import off_words
 from .keys import canonical
 from .products import Product
 from .work import MadeAnswer

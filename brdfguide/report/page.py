@@ -13,6 +13,7 @@ from pathlib import Path
 from .. import __version__, printable
 from ..files import write_whole
 from ..opening import is_plain
+from ..printable import off_words
 from . import sheet
 from .documents.plain import plain
 from .elements import (
@@ -29,7 +30,6 @@ from .page_numbers import numbers_table
 from .page_ranking import ranking
 from .page_words import section_links, words_used
 from .text.off_plane import off_plane_sentences
-from .text.values import off_words
 
 PACKAGES = ("numpy", "matplotlib", "pyyaml")
 

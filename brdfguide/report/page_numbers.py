@@ -2,8 +2,8 @@
 
 from html import escape
 
+from ..printable import off_words
 from .elements import html_table
-from .text.values import off_words
 
 
 def numbers_table(document: dict) -> str:

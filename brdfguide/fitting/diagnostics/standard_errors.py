@@ -12,6 +12,7 @@ from ...flags import Effect
 from ...models.model import Parameter
 from ...numerics.covariance import Normal, covariance_of
 from ...physics import fresnel
+from ...printable import off_words
 from ..layout import Layout, slope_of_coordinate
 
 BLOCKS = 8  # of each incidence angle: neighbours in one block err together
@@ -334,7 +335,7 @@ def discrepancy(residuals: np.ndarray, correlation: float, score: float) -> Find
     part = rms * sqrt(correlation)
     percent = 100 * expm1(min(part, 300.0))
     text = (
-        f"the model is systematically off by about {percent:.2g} %, alike over neighbouring directions "
+        f"the model is systematically off by about {off_words(percent)}, alike over neighbouring directions "
         f"(correlation {correlation:.2f})"
     )
     numbers = (

@@ -2,6 +2,7 @@
 
 from ... import flags
 from ...finding import Finding
+from ...printable import off_words
 
 
 def finding(each: Finding) -> dict:
@@ -33,4 +34,4 @@ def codes(findings: list[dict]) -> list[str]:
 
 def _code(each: dict) -> str:
     percent = each.get("numbers", {}).get("percent")
-    return each.get("flag", each["code"]) + ("" if percent is None else f" {min(percent, 1e9):.2g} %")
+    return each.get("flag", each["code"]) + ("" if percent is None else f" {off_words(percent)}")

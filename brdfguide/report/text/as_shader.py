@@ -2,7 +2,7 @@
 
 from math import expm1
 
-from .values import off_words
+from ...printable import off_words
 
 
 def as_shader_text(block: dict) -> str:

@@ -1,6 +1,6 @@
 """One shader's numbers as another's, in words."""
 
-from .values import off_words
+from ...printable import off_words
 
 
 def conversion_text(document: dict) -> str:

@@ -3,8 +3,8 @@
 from math import log
 from typing import NamedTuple
 
+from ...printable import off_words
 from .folding import folded, screen_width
-from .values import off_words
 
 COLUMNS = 80  # of a terminal as it opens
 LEAST_TIED = 60  # columns from which on a number stays on the line of its label

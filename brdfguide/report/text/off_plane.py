@@ -1,7 +1,7 @@
 """What data in the plane of incidence cost, and which term the law lacks, in words."""
 
+from ...printable import off_words
 from .folding import folded
-from .values import off_words
 
 SHOWN = 2  # laws that part outside the plane
 

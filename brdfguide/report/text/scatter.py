@@ -1,8 +1,9 @@
 """Scatter of polished surfaces in words: the answer first, then the laws, then what was assumed."""
 
+from ...printable import off_words
 from .folding import TIED
 from .table import columns
-from .values import off_words, percent_words
+from .values import percent_words
 
 ROWS = 9  # of a curve
 

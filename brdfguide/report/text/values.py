@@ -2,9 +2,7 @@
 
 from math import expm1
 
-from ...printable import cell, comment
-
-LEAST = 1e-3  # percent; what is less is printed as none
+from ...printable import cell, comment, off_words
 
 
 def csv(document: dict) -> str:
@@ -21,13 +19,6 @@ def residuals_csv(document: dict) -> str:
         angles = ",".join(f"{angle:.9g}" for angle in where)
         lines.append(f"{angles},{cell(channel)},{wavelength:g},{value:.9g},{model:.9g},{ratio:.9g}")
     return "\n".join(lines) + "\n"
-
-
-def off_words(percent: float) -> str:
-    """How far off a model typically is; what is no longer a percentage as a factor."""
-    if percent < 9.95:
-        return f"{percent if percent >= LEAST else 0:.2g} %"
-    return f"{percent:.0f} %" if percent < 99.5 else f"a factor {min(1 + percent / 100, 1e9):.2g}"
 
 
 def off_words_of(rms_ln: float) -> str:
