@@ -30,7 +30,8 @@ def _members(folder: str) -> tuple[str, ...]:
 @lru_cache
 def saying(folder: str, word: str) -> tuple[str, ...]:
     """Members whose file has a word in it, without importing any; one whose text is not there may have it."""
-    return tuple(name for name in _members(folder) if _says(HERE.joinpath(*folder.split("."), _file(name)), word))
+    place = HERE.joinpath(*folder.split("."))
+    return tuple(name for name in _members(folder) if _says(place / f"{_module_name(name)}.py", word))
 
 
 def _says(file: Path, word: str) -> bool:
@@ -40,15 +41,15 @@ def _says(file: Path, word: str) -> bool:
         return True
 
 
-def _file(name: str) -> str:
-    return f"{name.replace('-', '_')}.py"
+def _module_name(name: str) -> str:
+    return name.replace("-", "_")
 
 
 def load(folder: str, name: str):
     """The module of member `name`. Raises InputError with the nearest names."""
     if name not in _members(folder):
         raise choices(folder.rpartition(".")[2].removesuffix("s"), name, names(folder))
-    return _imported(f".{folder}.{_file(name).removesuffix('.py')}")
+    return _imported(f".{folder}.{_module_name(name)}")
 
 
 @cache

@@ -4,7 +4,7 @@ Written from the papers and with no shared step, as in `textbook`.
 """
 
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -286,18 +286,18 @@ def hidden_by_slopes(slopes, first, second, theta, prec):
     return hidden_by(slopes(first, second, prec), theta, prec)
 
 
-def gtr(p, alpha, gamma, n, k, scale):
-    def hidden(theta):
-        return hidden_by_slopes(gtr_slopes, alpha, gamma, theta, mp.prec)
+def facets_by(slopes, pair, first, second, n, k, scale):
+    """`facets` of a density with two numbers."""
+    hidden = partial(hidden_by_slopes, slopes, first, second, prec=mp.prec)
+    return facets(pair, slopes(first, second, mp.prec), hidden, n, k, scale)
 
-    return facets(p, gtr_slopes(alpha, gamma, mp.prec), hidden, n, k, scale)
+
+def gtr(p, alpha, gamma, n, k, scale):
+    return facets_by(gtr_slopes, p, alpha, gamma, n, k, scale)
 
 
 def sgd(pair, alpha, p, n, k, scale):
-    def hidden(theta):
-        return hidden_by_slopes(sgd_slopes, alpha, p, theta, mp.prec)
-
-    return facets(pair, sgd_slopes(alpha, p, mp.prec), hidden, n, k, scale)
+    return facets_by(sgd_slopes, pair, alpha, p, n, k, scale)
 
 
 def sgd_published(pair, rho_s, alpha, p, f0, f_normal, theta0, c, k, lam):

@@ -1,7 +1,7 @@
 """Where the starts of models end: the first, coarse part of a fit, on few directions and channels."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -11,6 +11,7 @@ from ..models.candidates import candidate_label, has_edge, without_edge
 from ..models.extensions import edge_starts
 from ..records import dataclass
 from . import starting_grid
+from .fit_options import FitOptions
 from .followed import End, Following, follow
 from .layout import Layout
 from .objective import Misfit, metric
@@ -21,19 +22,6 @@ MOST_EVALUATIONS = 100
 TOLERANCE = 1e-5
 GIVEN_FOLLOWED = 2  # of the starts that one is given, those that are followed beyond the warm-up
 OUTRUN = 1.5  # times the best rms: so far behind; such a model settles on SETTLE_SAMPLES
-
-
-@dataclass(frozen=True)
-class FitOptions:
-    """What a user may decide about a fit."""
-
-    metric: str = "ln"
-    close: str = "look"  # what may be taken in place of the best: look, none, or a percentage such as 1%
-    weights: str = "auto"  # auto, none, stderr, sampling
-    robust: bool = False
-    shape_per_channel: bool = False
-    fixed: Mapping[str, float] = field(default_factory=dict)
-    start: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,24 +132,29 @@ class _Begun:
     def from_ends(self, ends: Sequence[End]) -> Following:
         return Following(self.misfit, [(end.shared, end.per_channel) for end in ends])
 
-    @property
-    def count(self) -> int:
-        """Values that are looked at."""
-        return max(int(np.count_nonzero(self.misfit.measurement.weighed)), 1)
-
     def further(self, ahead: list[End]) -> list[int]:
         """Which ends of the warm-up are worth following."""
-        most = min(OUTRUN**2 * ahead[0].cost, self.given.worth**2 * self.count)
+        most = min(OUTRUN**2 * ahead[0].cost, self.given.worth**2 * _looked_at(self.misfit))
         return [place for place, end in enumerate(ahead) if not end.converged and end.cost <= most]
 
     def ended(self, found: Mapping[int, End], evaluations: int, seconds: float) -> Search:
-        ends = []
-        for end in found.values():
-            at = end.shared, end.per_channel
-            if self.narrow.walks:
-                at = self.narrow.standing().encode(self.narrow.decode(*at))
-            ends.append((*self.narrow.in_order(*at), float(np.sqrt(end.cost / self.count))))
-        return Search(self.layout, sorted(ends, key=lambda end: end[2]), evaluations, self.seconds + seconds)
+        return Search(self.layout, _best_first(self.misfit, found.values()), evaluations, self.seconds + seconds)
+
+
+def _looked_at(misfit: Misfit) -> int:
+    """How many values a descent looks at."""
+    return max(int(np.count_nonzero(misfit.measurement.weighed)), 1)
+
+
+def _best_first(misfit: Misfit, ends: Iterable[End]) -> list:
+    """(shared, per_channel, rms) of ends, as a fit goes on from them."""
+    layout, count, found = misfit.layout, _looked_at(misfit), []
+    for end in ends:
+        at = end.shared, end.per_channel
+        if layout.walks:
+            at = layout.standing().encode(layout.decode(*at))
+        found.append((*layout.in_order(*at), float(np.sqrt(end.cost / count))))
+    return sorted(found, key=lambda each: each[2])
 
 
 def _begin(model: Composite, data: Prepared, options: FitOptions, given: Given) -> _Begun:
@@ -191,7 +184,6 @@ def followed_on(searches: Sequence[Search], data: Prepared, options: FitOptions)
     began, few = perf_counter(), data.search.measurement
     narrow = [replace(each.layout, channels=few.brdf.shape[1]) for each in searches]
     misfits = [data.search.misfit(layout, metric(options.metric)) for layout in narrow]
-    count = max(int(np.count_nonzero(few.weighed)), 1)
     found = follow(
         [
             Following(misfit, [(shared, per_channel) for shared, per_channel, _ in each.ends])
@@ -200,12 +192,13 @@ def followed_on(searches: Sequence[Search], data: Prepared, options: FitOptions)
         TOLERANCE,
         MOST_EVALUATIONS,
     )
-    seconds, on = (perf_counter() - began) / max(len(searches), 1), []
-    for layout, each, followed in zip(narrow, searches, found, strict=True):
-        ends = [
-            (*layout.in_order(end.shared, end.per_channel), float(np.sqrt(end.cost / count)))
-            for end in sorted(followed, key=lambda end: end.cost)
-        ]
-        evaluations = each.evaluations + sum(end.evaluations for end in followed)
-        on.append(Search(each.layout, ends, evaluations, each.seconds + seconds))
-    return on
+    seconds = (perf_counter() - began) / max(len(searches), 1)
+    return [
+        Search(
+            each.layout,
+            _best_first(misfit, ends),
+            each.evaluations + sum(end.evaluations for end in ends),
+            each.seconds + seconds,
+        )
+        for misfit, each, ends in zip(misfits, searches, found, strict=True)
+    ]

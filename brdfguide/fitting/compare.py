@@ -14,7 +14,8 @@ from ..models import Composite
 from ..models.visible_change import begins_to_show
 from . import cross_validation, describable, growing, ranking
 from . import fit as fitting
-from .coarse_search import FitOptions, Search, free_count
+from .coarse_search import Search, free_count
+from .fit_options import FitOptions
 from .prepared import Prepared
 from .ranked import Ranking, Step
 

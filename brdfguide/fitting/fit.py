@@ -15,8 +15,9 @@ from ..models.surface import Surface
 from ..numerics.least_squares import Minimum
 from ..records import dataclass
 from . import drift, weights
-from .coarse_search import OUTRUN, FitOptions, Search, Sought, followed_on, search, search_all
+from .coarse_search import OUTRUN, Search, Sought, followed_on, search, search_all
 from .diagnostics import profile_intervals, scan_gains, sigma_bound, standard_errors, unnoticed_faults
+from .fit_options import FitOptions
 from .layout import Layout
 from .objective import METRICS, metric
 from .prepared import Prepared, Subset, expecting, few_channels, prepare

@@ -14,8 +14,9 @@ from ..models.surface import Surface
 from ..physics.geometry import Geometry
 from ..records import dataclass
 from . import cross_validation
-from .coarse_search import FitOptions, Given, Search, Sought, free_count, search_all
+from .coarse_search import Given, Search, Sought, free_count, search_all
 from .diagnostics import standard_errors
+from .fit_options import FitOptions
 from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
 from .residuals import ln_residuals, rms
