@@ -19,7 +19,7 @@ import numpy as np
 from brdfguide import models
 from brdfguide.models import he_torrance
 from brdfguide.models._series import by_terms
-from brdfguide.models._series_cells import ln_series
+from brdfguide.models._series_patches import ln_series
 from brdfguide.physics.geometry import Geometry
 
 SAMPLES = 100_000

@@ -3,7 +3,8 @@
 Each cell is one octave in g and an octave or a part of one in the other variable, finer where the sum hops from one
 order to the next. In these logarithms 8 by 11 coefficients do on average, since the nearest zeros of S lie at
 imaginary parts of ln g near π. A cell is computed from the terms when first touched, and kept; samples outside all
-cells are summed term by term.
+cells are summed term by term. Of many samples those of a cell are products of matrices; few would pay more for the
+calls, and fetch the coefficients of a part of their cell (`_series_patches`).
 """
 
 from functools import cache
@@ -22,16 +23,11 @@ OCTAVES_Y = 16  # of 1 + y/max(g, 4) that have cells
 PARTS = 8  # most into which an octave of the second is divided
 OUTSIDE = 2**16 - 1  # the number of what lies in no cell
 BLOCK = 4096  # samples at once, so that they stay in the processor's cache
-MANY = 32  # samples of a cell from which on it is evaluated by itself: below, calls cost more than products
+MANY = 16_384  # samples from which on those of a cell are evaluated together: below, calls cost more than products
 
 
-def ln_series(g, y, derivatives: bool = False):
-    """ln S to 1e-11, for g > 0 and y >= 0, which broadcast.
-
-    With `derivatives`: (ln S, d ln S/d ln g, d ln S/dy), these to 1e-8.
-    """
-    g, y = np.broadcast_arrays(np.asanyarray(g, float), np.asanyarray(y, float), subok=True)
-    shape, g, y = g.shape, g.ravel(), y.ravel()
+def by_cells(g, y, derivatives: bool = False):
+    """ln S, with its derivatives by ln g and by y: three rows, or one. Takes flat g > 0 and y >= 0."""
     code, t_g, t_y = np.empty(g.size, np.uint16), np.empty_like(g), np.empty_like(g)
     for first in range(0, g.size, BLOCK):
         part = slice(first, first + BLOCK)
@@ -40,7 +36,7 @@ def ln_series(g, y, derivatives: bool = False):
     code, t_g, t_y = code[order], t_g[order], t_y[order]
     starts = np.flatnonzero(np.diff(code, prepend=-1))
     touched = code[starts].tolist()
-    _fill([each for each in touched if each not in CELLS])
+    compute_cells(touched)
     groups = [
         (CELLS[each], start, stop)
         for each, start, stop in zip(touched, starts.tolist(), [*starts[1:].tolist(), code.size], strict=True)
@@ -55,8 +51,7 @@ def ln_series(g, y, derivatives: bool = False):
             out[:, start:stop] = by_terms(g[rows], y[rows])[: len(out)]
     back = np.empty_like(order)
     back[order] = np.arange(order.size)
-    values = [row.take(back).reshape(shape) for row in out]
-    return tuple(values) if derivatives else values[0]
+    return out.take(back, axis=1)
 
 
 def _places(g, y):
@@ -92,8 +87,10 @@ CELLS: dict[int, np.ndarray | None] = {
 }  # ln S and its slopes by t_g and t_y: powers of t_y in rows, of t_g in columns; None: not resolved
 
 
-def _fill(codes):
-    """Compute cells; those that the smaller size does not resolve with the larger, else they stay sums of terms."""
+def compute_cells(codes) -> None:
+    """Those not yet known; those that the smaller size does not resolve with the larger, else they stay sums of
+    terms."""
+    codes = [code for code in codes if code not in CELLS]
     for size in SIZES:
         if not codes:
             return
@@ -103,7 +100,7 @@ def _fill(codes):
         g = 2.0 ** (G_FIRST + row[:, None] + (1 + along_g) / 2)
         b = column[:, None] + (part[:, None] + (1 + along_y) / 2) / SPLIT[octave][:, None]
         values = _at_nodes(g, 2.0**b - 1)
-        by_g, by_y = (_transform(count) for count in size)
+        by_g, by_y = (transform(count) for count in size)
         tails = TAIL + NOISE * np.abs(values).max(axis=(1, 2))
         CELLS.update(zip(codes, _powers(by_g @ values @ by_y.T, tails[:, None, None]), strict=True))
         codes = [code for code in codes if CELLS[code] is None]
@@ -122,7 +119,7 @@ def _at_nodes(g, ratio):
 
 
 @cache
-def _transform(count):
+def transform(count):
     """Chebyshev coefficients from the values at the nodes."""
     transform = np.cos(np.pi * np.arange(count)[:, None] * (np.arange(count) + 0.5) / count) * 2 / count
     transform[0] /= 2
@@ -138,7 +135,7 @@ def _powers(chebyshev, tails):
     n_y = most_y - large.any(axis=1)[:, ::-1].argmax(axis=1)
     kept = (np.arange(most_g) < n_g[:, None])[:, :, None] & (np.arange(most_y) < n_y[:, None])[:, None]
     cells = np.zeros((len(chebyshev), 3, most_y, most_g))
-    cells[:, 0] = _to_powers(most_y) @ np.where(kept, chebyshev, 0.0).transpose(0, 2, 1) @ _to_powers(most_g).T
+    cells[:, 0] = to_powers(most_y) @ np.where(kept, chebyshev, 0.0).transpose(0, 2, 1) @ to_powers(most_g).T
     cells[:, 1, :, :-1] = np.arange(1, most_g) * cells[:, 0, :, 1:]
     cells[:, 2, :-1] = np.arange(1, most_y)[:, None] * cells[:, 0, 1:]
     return [
@@ -148,7 +145,7 @@ def _powers(chebyshev, tails):
 
 
 @cache
-def _to_powers(n):
+def to_powers(n):
     """Column k holds the powers of Chebyshev's polynomial k."""
     polynomials = np.eye(n)
     for k in range(2, n):
@@ -159,9 +156,8 @@ def _to_powers(n):
 def _evaluate(groups, t_g, t_y, out):
     """The polynomials into out[0]; their derivatives by t_g and t_y into out[1] and out[2] where these exist.
 
-    Powers are formed for a block of neighbours at once, whatever their cells: a call costs as much as a thousand
-    products. So cells of few samples are evaluated together. Never one sample alone, whose last digits would be summed
-    in another order than among others.
+    Powers are formed for a block of neighbours at once, whatever their cells. Never for one sample alone, whose last
+    digits would be summed in another order than among others.
     """
     for first in range(0, t_g.size, BLOCK):
         here = [
@@ -174,38 +170,16 @@ def _evaluate(groups, t_g, t_y, out):
         (_, most_y, most_g), part = np.max([cell.shape for cell, *_ in here], axis=0), slice(first, first + BLOCK)
         powers_g, powers_y = _powers_of(t_g[part], most_g), _powers_of(t_y[part], most_y)
         for cell, start, stop in here:
-            if stop - start >= MANY:
-                values = _products(cell[None, : len(out)], powers_g[:, start:stop], powers_y[:, None, start:stop])
-                out[:, first + start : first + stop] = values[0]
-        few = [each for each in here if each[2] - each[1] < MANY]
-        if few:
-            cells, starts, stops = zip(*few, strict=True)
-            places = np.array(starts)[:, None] + np.arange(max(2, max(np.subtract(stops, starts))))
-            within = places < np.array(stops)[:, None]
-            places = np.minimum(places, t_g[part].size)
-            along_g, along_y = powers_g.take(places, axis=1).swapaxes(0, 1), powers_y.take(places, axis=1)
-            values = _products(_padded(cells, len(out), most_y, most_g), along_g, along_y)
-            out[:, first + places[within]] = values.swapaxes(0, 1)[:, within]
-
-
-def _padded(cells, kinds, most_y, most_g):
-    """The coefficients of cells of several sizes in one array, (cells, kinds, most_y, most_g)."""
-    padded = np.zeros((len(cells), kinds, most_y, most_g))
-    for row, cell in zip(padded, cells, strict=True):
-        row[:, : cell.shape[1], : cell.shape[2]] = cell[:kinds]
-    return padded
-
-
-def _products(coefficients, powers_g, powers_y):
-    """Polynomials (cells, kinds, n_y, n_g) at powers (cells, n_g, n) and (n_y, cells, n): (cells, kinds, n)."""
-    count, kinds, n_y, n_g = coefficients.shape
-    inner = coefficients.reshape(count, kinds * n_y, n_g) @ powers_g[..., :n_g, :]
-    return np.einsum("ckin,icn->ckn", inner.reshape(count, kinds, n_y, -1), powers_y[:n_y])
+            _, n_y, n_g = cell.shape
+            cut = slice(start, max(stop, start + 2))
+            inner = cell[: len(out)].reshape(-1, n_g) @ powers_g[:n_g, cut]
+            values = np.einsum("kin,in->kn", inner.reshape(len(out), n_y, -1), powers_y[:n_y, cut])
+            out[:, first + start : first + stop] = values[:, : stop - start]
 
 
 def _powers_of(t, count):
     """Powers of t in rows, and those of a spare 0 at the end."""
-    powers = np.empty_like(t, shape=(count, t.size + 1))
+    powers = np.empty((count, t.size + 1))
     powers[0] = 1.0
     powers[1:2, :-1] = t
     powers[1:, -1] = 0.0

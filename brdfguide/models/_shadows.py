@@ -9,7 +9,7 @@ from ..formed import formed
 from ..numerics.special import erfcx, lambert_w
 from ..physics import fresnel as optics
 from ..physics.geometry import Directions, Geometry
-from ._series_cells import ln_series
+from ._series_patches import ln_series
 
 BLOCK = 4096
 
@@ -38,9 +38,34 @@ def shadowing(cos, sin, slope, derivatives=False):
     return visible, erfc, *by_slope
 
 
-def ln_g_by_ln_slope(spread, by_slope):
-    """d ln g/d ln slope, from K at both angles and dK/d ln slope: g follows the effective roughness."""
+def both_shadowings(geom, slope, derivatives=False):
+    """The same of incidence and reflection, in one call: pairs in place of single arrays."""
+    cos, sin = _both_ways(geom)
+    more = np.ndim(slope) - np.ndim(geom.cos_i)
+    if more > 0:
+        cos, sin = (each.reshape(2, *(1,) * more, *each.shape[1:]) for each in (cos, sin))
+    return shadowing(cos, sin, slope, derivatives)
+
+
+@formed
+def _both_ways(to: Directions) -> tuple[np.ndarray, np.ndarray]:
+    """cos θ and sin θ of both directions, (2, ...)."""
+    return np.stack((to.cos_i, to.cos_r)), np.stack((to.sin_i, to.sin_r))
+
+
+def shadows_left(spread, by_slope):
+    """`shadow_free`, and d ln g/d ln slope, from K at both angles and dK/d ln slope: g follows the effective
+    roughness."""
     w = lambert_w(spread * spread / (8 * pi))
+    return 1 / np.sqrt(1 + w), _ln_g_by_ln_slope(spread, by_slope, w)
+
+
+def ln_g_by_ln_slope(spread, by_slope):
+    """d ln g/d ln slope alone."""
+    return _ln_g_by_ln_slope(spread, by_slope, lambert_w(spread * spread / (8 * pi)))
+
+
+def _ln_g_by_ln_slope(spread, by_slope, w):
     return -spread * np.exp(-w) / (4 * pi * (1 + w) ** 2) * by_slope
 
 

@@ -19,8 +19,17 @@ import numpy as np
 
 from ..physics import fresnel as optics
 from ..physics.geometry import Geometry
-from ._series_cells import ln_series
-from ._shadows import height_factor, in_blocks, kept_fresnel, law_without, ln_g_by_ln_slope, shadow_free, shadowing
+from ._series_patches import ln_series
+from ._shadows import (
+    both_shadowings,
+    height_factor,
+    in_blocks,
+    kept_fresnel,
+    law_without,
+    shadow_free,
+    shadowing,
+    shadows_left,
+)
 from .facts import Candidacy, Formula
 from .model import Derived, Extreme, Model, Parameter, Pin, at
 
@@ -68,21 +77,17 @@ def _parts(geom, sigma, slope, n, k, scale, derivatives=False):
 
     With `derivatives` also those of ln S_i S_r and of ln g by ln slope.
     """
-    shadow_i, spread_i, *by_i = shadowing(geom.cos_i, geom.sin_i, slope, derivatives)
-    shadow_r, spread_r, *by_r = shadowing(geom.cos_r, geom.sin_r, slope, derivatives)
-    spread = spread_i + spread_r
+    shadows, spreads, *by_slope = both_shadowings(geom, slope, derivatives)
+    spread = spreads[0] + spreads[1]
     tau = sigma / slope
-    g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * shadow_free(spread)) ** 2
+    left, *through_g = shadows_left(spread, by_slope[1][0] + by_slope[1][1]) if derivatives else (shadow_free(spread),)
+    g = (2 * pi * sigma / geom.wavelength) ** 2 * (geom.v_z * left) ** 2
     y = (pi * tau / geom.wavelength) ** 2 * geom.vxy2
-    shadow_i *= shadow_r
-    shadow_i *= height_factor(geom)
+    shadow = shadows[0] * shadows[1]
+    shadow *= height_factor(geom)
     f = 1.0 if n is None else kept_fresnel(geom, n, k)
-    factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow_i
-    return (
-        (factor, g, y, by_i[0] + by_r[0], ln_g_by_ln_slope(spread, by_i[1] + by_r[1]))
-        if derivatives
-        else (factor, g, y)
-    )
+    factor = (pi / 4) * scale * (tau / geom.wavelength) ** 2 * f * shadow
+    return (factor, g, y, by_slope[0][0] + by_slope[0][1], *through_g) if derivatives else (factor, g, y)
 
 
 CHEAPER = tuple(

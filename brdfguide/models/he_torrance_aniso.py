@@ -20,7 +20,7 @@ from ..physics import fresnel as optics
 from ..physics.geometry import Geometry
 from ._grain import AXIS, BY_RATIO, LENGTH_ACROSS, RATIO, SLOPE_ACROSS
 from ._microfacet import INDEX
-from ._series_cells import ln_series
+from ._series_patches import ln_series
 from ._shadows import height_factor, kept_fresnel, ln_g_by_ln_slope, shadow_free, shadowing
 from .facts import Candidacy
 from .model import Extreme, Model, Parameter, Pin, at

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..physics.geometry import Geometry
 from ._grain import AXIS, BY_RATIO, LENGTH_ACROSS, RATIO, SLOPE_ACROSS
-from ._series_cells import ln_series
+from ._series_patches import ln_series
 from ._shadows import height_factor
 from .facts import Candidacy, Formula
 from .model import Extreme, Model, Parameter, Pin, at

@@ -9,7 +9,7 @@ import pytest
 
 from brdfguide.models import he_torrance as he
 from brdfguide.models._series import by_products, by_terms
-from brdfguide.models._series_cells import ln_series
+from brdfguide.models._series_patches import ln_series
 from brdfguide.physics.geometry import Geometry, in_plane
 
 from ..conftest import ROOT
