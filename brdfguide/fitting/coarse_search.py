@@ -165,12 +165,12 @@ def _begin(model: Composite, data: Prepared, options: FitOptions, given: Given) 
     if has_edge(narrow.model) and not given.starts:
         held = search(without_edge(narrow.model), data, options)
         given = Given(edge_starts(narrow.model, held.values))
-    starts = [
-        starting_grid.amplitudes_by_channel(narrow, few, dict(start)) if given.levels else dict(start)
-        for start in given.starts
-    ] or starting_grid.grid_starts(narrow, few)
+    starts = [dict(start) for start in given.starts]
+    if given.levels:
+        starts = starting_grid.amplitudes_by_channel(narrow, few, starts)
+    starts = starts or starting_grid.grid_starts(narrow, few)
     if users := _its(model, options.start):  # the rest as in the grid's best
-        starts.append({**starting_grid.amplitudes_by_channel(narrow, few, {**starts[0], **users}), **users})
+        starts.append({**starting_grid.amplitudes_by_channel(narrow, few, [{**starts[0], **users}])[0], **users})
     return _Begun(layout, narrow, misfit, starts, given, perf_counter() - began)
 
 

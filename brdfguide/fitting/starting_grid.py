@@ -3,6 +3,7 @@
 Amplitudes enter linearly, so each shape needs one small non-negative least-squares problem instead of a search.
 """
 
+from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
@@ -13,6 +14,8 @@ from ..data.turning import turn_of_each
 from ..formed import formed
 from ..models import Composite
 from ..numerics.nonnegative import non_negative
+from ..physics.geometry import Geometry
+from ..records import dataclass
 from .layout import Layout
 from .objective import SMALLEST
 
@@ -32,17 +35,20 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
     Judged by the rms of ln(model/data) over a few hundred well-spread directions, all channels averaged, and by cube
     roots.
     """
-    few, geom, data = _judged(measurement)
-    axes, bases = zip(*(_term_grid(layout, term, geom) for term in layout.model.terms), strict=True)
-    shapes = [shape for shape in product(*(range(len(axis)) for axis in axes)) if _in_order(layout, shape)]
-    if len(shapes) > MOST_SHAPES:
-        shapes = shapes[:: len(shapes) // MOST_SHAPES + 1]
-    places = np.array(shapes)
-    columns = np.stack([basis[places[:, term]] for term, basis in enumerate(bases)], axis=2)  # (shapes, samples, terms)
+    judged = _judged(measurement)
+    few, data = judged.few, judged.data
+    axes, bases = zip(*(_term_grid(layout, term, judged) for term in layout.model.terms), strict=True)
+    places = np.indices([len(axis) for axis in axes]).reshape(len(axes), -1).T
+    places = places[_in_order(layout, places)]
+    if len(places) > MOST_SHAPES:
+        places = places[:: len(places) // MOST_SHAPES + 1]
+    columns = np.empty((len(places), len(data), len(axes)))  # over the data
+    for term, basis in enumerate(bases):
+        columns[:, :, term] = basis[places[:, term]]
     fixed, limits = _fixed_and_limits(layout)
-    amplitudes = non_negative(columns / data[:, None], fixed, limits)
-    model = np.einsum("gst,gt->gs", columns, amplitudes)
-    error = np.sqrt(np.mean(np.log(np.maximum(model, SMALLEST) / data) ** 2, axis=1))
+    amplitudes = non_negative(columns, fixed, limits)
+    ratio = (columns @ amplitudes[:, :, None])[:, :, 0]
+    error = np.sqrt(np.mean(np.log(np.maximum(ratio, SMALLEST / data)) ** 2, axis=1))
     picked: list[int] = []
     for candidate in np.argsort(error, kind="stable"):
         if all(
@@ -53,12 +59,12 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
         if len(picked) == count:
             break
     # a narrow lobe without a body falls by decades: every wrong width is far off in ln, and its peak finds it better
-    brightest = int(np.argmin(np.sum((np.cbrt(model) - np.cbrt(data)) ** 2, axis=1)))
+    brightest = int(np.argmin((np.cbrt(ratio) - 1) ** 2 @ np.cbrt(data) ** 2))
     if all(_apart(places[brightest], places[other], axes) for other in picked):
         picked.append(brightest)
     starts = [_values(layout.model, axes, places[each], amplitudes[each]) for each in picked]
     starts += [{**starts[0], **grained} for grained in _grains(layout, measurement, starts[0])]
-    return [amplitudes_by_channel(layout, few, start) for start in starts]
+    return amplitudes_by_channel(layout, few, starts)
 
 
 def _grains(layout: Layout, measurement: Measurement, best: dict) -> list[dict]:
@@ -82,37 +88,60 @@ def _grains(layout: Layout, measurement: Measurement, best: dict) -> list[dict]:
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class _Judged:
+    """Few of the directions, on which grids are judged."""
+
+    few: Measurement  # all channels
+    geom: Geometry  # of the mean channel
+    data: np.ndarray  # its values
+    grids: dict  # of each term that was looked at
+
+
 @formed
-def _judged(measurement: Measurement):
-    """Few of the directions: all channels, and the directions and values of the mean channel."""
+def _judged(measurement: Measurement) -> _Judged:
     few = measurement[spread_rows(measurement, GRID_SAMPLES)]
     data, usable = _channel_mean(few)
     data, geom = data[usable], few.geom.at(np.atleast_1d(np.mean(few.geom.wavelength)))[usable]
-    return few, geom, np.maximum(data, FAINTEST * np.max(data))
+    return _Judged(few, geom, np.maximum(data, FAINTEST * np.max(data)), {})
 
 
-def amplitudes_by_channel(layout: Layout, measurement: Measurement, values: dict) -> dict:
-    """The same shape with the amplitudes that suit each channel by itself."""
-    channels = measurement.brdf.shape[1]
-    terms = layout.model.terms
-    unit = {**values, **{_amplitude_key(t): 1.0 for t in terms if not _is_fixed(layout, t)}}
-    shapes = [t.model(measurement.geom, **layout.model.of_term(t, unit)) for t in terms]
-    data = np.where(measurement.weighed, measurement.level, np.inf)  # a missing value asks for nothing
-    data = np.maximum(data, FAINTEST * np.max(data[measurement.weighed], initial=0.0))
-    columns = np.stack([(np.broadcast_to(shape, measurement.brdf.shape) / data).T for shape in shapes], axis=2)
-    # where nothing is asked for, the target of 1 must not be missed either
-    usable = measurement.weighed.T
-    fixed, limits = _fixed_and_limits(layout)
-    amplitudes = non_negative(columns, fixed, limits, usable)
-    # a start of exactly 0 would sit on its bound; where all are 0, a thousandth of what would carry the data by itself
-    lowest = 1e-6 * np.max(amplitudes, axis=0)
-    lowest = np.where(
-        lowest > 0, lowest, np.minimum(1e-3 / np.maximum(np.mean(columns, axis=(0, 1)), 1e-300), 0.5 * limits)
-    )
+def amplitudes_by_channel(layout: Layout, measurement: Measurement, starts: Sequence[dict]) -> list[dict]:
+    """The same shapes with the amplitudes that suit each channel by itself."""
+    if not starts:
+        return []
+    terms, (samples, channels) = layout.model.terms, measurement.brdf.shape
+    data, usable = _asked(measurement)
+    columns = np.empty((len(starts), channels, samples, len(terms)))
     for place, term in enumerate(terms):
-        if not fixed[place]:
-            values[_amplitude_key(term)] = np.maximum(amplitudes[:, place], lowest[place]) * np.ones(channels)
-    return values
+        unit = {} if _is_fixed(layout, term) else {term.model.amplitude: 1.0}
+        for number, start in enumerate(starts):
+            shape = term.model(measurement.geom, **{**layout.model.of_term(term, start), **unit})
+            columns[number, :, :, place] = np.transpose(shape / data)
+    fixed, limits = _fixed_and_limits(layout)
+    # where nothing is asked for, the target of 1 must not be missed either
+    flat = columns.reshape(-1, samples, len(terms))
+    amplitudes = non_negative(flat, fixed, limits, np.concatenate([usable] * len(starts)))
+    amplitudes = amplitudes.reshape(len(starts), channels, len(terms))
+    # a start of exactly 0 would sit on its bound; where all are 0, a thousandth of what would carry the data by itself
+    lowest = 1e-6 * np.max(amplitudes, axis=1)
+    alone = 1e-3 / np.maximum(np.mean(columns, axis=(1, 2)), 1e-300)
+    lowest = np.where(lowest > 0, lowest, np.minimum(alone, 0.5 * limits))
+    amplitudes = np.maximum(amplitudes, lowest[:, None])
+    keys = [(place, _amplitude_key(term)) for place, term in enumerate(terms) if not fixed[place]]
+    return [
+        {**start, **{key: found[:, place].copy() for place, key in keys}}
+        for start, found in zip(starts, amplitudes, strict=True)
+    ]
+
+
+@formed
+def _asked(measurement: Measurement) -> tuple[np.ndarray, np.ndarray]:
+    """The values that amplitudes are to meet (samples, channels), a missing one asks for nothing; and where there are
+    any, (channels, samples)."""
+    data = np.where(measurement.weighed, measurement.level, np.inf)
+    data = np.maximum(data, FAINTEST * np.max(data[measurement.weighed], initial=0.0))
+    return data, measurement.weighed.T
 
 
 def spread_rows(measurement: Measurement, count: int) -> np.ndarray:
@@ -139,20 +168,24 @@ def _scans(measurement: Measurement):
         yield from [rows] if turns is None else (rows[turns[rows] == each] for each in np.unique(turns[rows]))
 
 
-def _term_grid(layout: Layout, term, geom):
-    """The shapes of one term [(name, value)...] and its values at unit amplitude, (shapes, samples)."""
+def _term_grid(layout: Layout, term, judged: _Judged):
+    """The shapes of one term [(name, value)...] and its values at unit amplitude over the data, (shapes, samples);
+    formed once for all sums that hold the law."""
     searched = [p for p in term.model.parameters if term.key(p.name) in layout.parameters and not p.linear]
     names = [p.name for p in searched if p.name not in term.shared]  # what is shared is tried where it belongs
     base = {**term.model.defaults(), **layout.model.of_term(term, layout.model.defaults())}
     base = {name: float(np.mean(value)) for name, value in base.items()}
     if not _is_fixed(layout, term):
         base[term.model.amplitude] = 1.0
-    grid = list(
-        product(*(_along(term.model.parameter(name), layout.model.start.get(term.key(name))) for name in names))
-    )
-    at = dict(zip(names, np.array(grid).T, strict=True))  # shapes stand where channels do
-    values = term.model(geom, **{**base, **at})
-    return [dict(zip(names, each, strict=True)) for each in grid], np.broadcast_to(values, (len(geom), len(grid))).T
+    along = tuple(_along(term.model.parameter(name), layout.model.start.get(term.key(name))) for name in names)
+    asked = term.model, tuple(names), along, tuple(base.items())
+    if asked not in judged.grids:
+        grid = list(product(*along))
+        at = dict(zip(names, np.array(grid).T, strict=True))  # shapes stand where channels do
+        values = np.transpose(term.model(judged.geom, **{**base, **at}))
+        values = np.broadcast_to(values, (len(grid), len(judged.geom))) / judged.data
+        judged.grids[asked] = [dict(zip(names, each, strict=True)) for each in grid], values
+    return judged.grids[asked]
 
 
 def _along(parameter, start) -> tuple[float, ...]:
@@ -167,11 +200,12 @@ def _along(parameter, start) -> tuple[float, ...]:
     return values if start is None else tuple(sorted({*values, float(np.mean(start))}))
 
 
-def _in_order(layout: Layout, shape) -> bool:
-    """Of lobes that may be exchanged only one order is tried."""
-    labels = [term.label for term in layout.model.terms]
-    alike = [[shape[labels.index(label)] for label in group] for group in layout.alike]
-    return all(places == sorted(places) for places in alike)
+def _in_order(layout: Layout, places) -> np.ndarray:
+    """Which shapes, rows of places along the axes of terms: of lobes that may be exchanged only one order is tried."""
+    labels, kept = [term.label for term in layout.model.terms], np.ones(len(places), bool)
+    for group in layout.alike:
+        kept &= np.all(np.diff(places[:, [labels.index(label) for label in group]], axis=1) >= 0, axis=1)
+    return kept
 
 
 def _fixed_and_limits(layout: Layout) -> tuple[np.ndarray, np.ndarray]:
