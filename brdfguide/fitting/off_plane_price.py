@@ -12,11 +12,13 @@ told is the one within 25 % of which it most probably lies, for values with the 
 tie in the plane, or may as well be right, and by which the error is another are told beside it.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from ..data.measurement import Measurement
 from ..models.surface import Surface
-from ..numerics.gaussian_process import Foretold, Places, foretold
+from ..numerics.gaussian_process import Foretold, Places, Weighed, weighed
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
 from ..records import dataclass
@@ -91,18 +93,15 @@ def off_plane_price(ranking: Ranking, measurement: Measurement) -> Price | None:
     known = _Known.of(measurement, laws, there)
     if len(known.part.brdf) < LEAST_SAMPLES:
         return None
-    said = [known.foretells(row.fit) for row in laws]
+    known_there = [known.weighs(place, row.fit) for place, row in enumerate(laws)]
     best = next(place for place, row in enumerate(laws) if row is ranking.recommended)
-    probable = np.array([known.evidence(each) + _beforehand(row) for each, row in zip(said, laws, strict=True)])
+    probable = np.array([known.evidence(each) + _beforehand(row) for each, row in zip(known_there, laws, strict=True)])
     probable = np.exp(probable - probable.max())
     probable /= probable.sum()
-    gaps = [each.ln - said[best].ln for each in said]
-    then = [_rounded(known.error(each, gap, weights)) for each, gap in zip(said, gaps, strict=True)]
-    counted = [
-        IfRight(row.fit.name, _rounded(probable[place]), then[place])
-        for place, row in enumerate(laws)
-        if probable[place] >= LEAST_PROBABLE or row.tied or place == best
-    ]
+    count = [place for place, row in enumerate(laws) if probable[place] >= LEAST_PROBABLE or row.tied or place == best]
+    said = {place: known.foretells(laws[place].fit, known_there[place]) for place in count}
+    then = {place: _rounded(known.error(each, each.ln - said[best].ln, weights)) for place, each in said.items()}
+    counted = [IfRight(laws[place].fit.name, _rounded(probable[place]), then[place]) for place in count]
     by_law = tuple(sorted(counted, key=lambda each: -each.probability))
     expected, probability = most_probable(by_law)
     apart = [
@@ -139,10 +138,15 @@ def _rounded(number) -> float:
 def outside_plane(measurement: Measurement) -> tuple[Instrument, np.ndarray]:
     """Directions outside the plane, as far from the normal as the data go, and weights that add up to 1."""
     highest = np.max([measurement.geom.theta_i_deg.max(), measurement.geom.theta_r_deg.max()])
-    geom, weights = hemisphere(float(np.clip(highest, 45.0, 80.0)))
+    geom, weights = _outside(float(np.clip(highest, 45.0, 80.0)))
+    return Instrument(geom.at(measurement.geom.wavelength), measurement.solid_angle), weights
+
+
+@lru_cache(maxsize=4)  # the next file's too
+def _outside(highest: float) -> tuple[Geometry, np.ndarray]:
+    geom, weights = hemisphere(highest)
     off = geom.off_plane_deg[:, 0] >= OFF_DEG
-    geom = geom[off].at(measurement.geom.wavelength)
-    return Instrument(geom, measurement.solid_angle), weights[off] / weights[off].sum()
+    return geom[off], weights[off] / weights[off].sum()
 
 
 def places_of_missed(geom: Geometry) -> np.ndarray:
@@ -182,32 +186,35 @@ class _Known:
     inside: Instrument
     there: Instrument
     places: Places
+    left: list[np.ndarray]  # by each law, ln(data/model) (directions, channels)
 
     @classmethod
     def of(cls, measurement: Measurement, laws: list[Row], there: Instrument) -> "_Known":
         kept = measurement[measurement.has_value]
         part = kept[starting_grid.spread_rows(kept, SAMPLES)]
         channels = few_channels(measurement.brdf.shape[1])
-        clear = np.all([np.isfinite(row.fit.residuals_on(part)[:, channels]).all(axis=1) for row in laws], axis=0)
+        left = [-row.fit.residuals_on(part)[:, channels] for row in laws]
+        clear = np.all([np.isfinite(each).all(axis=1) for each in left], axis=0)
         part = part[clear]
         geom = part.of_channels(channels).geom
         there = Instrument(there.geom.at(geom.wavelength), there.solid_angle)
         places = Places.between(places_of_missed(geom), places_of_missed(there.geom))
-        return cls(part, channels, Instrument(geom, part.solid_angle), there, places)
+        return cls(part, channels, Instrument(geom, part.solid_angle), there, places, [each[clear] for each in left])
 
-    def foretells(self, fit: Fit) -> _Said:
-        surface: Surface = thinned_surface(fit)
-        layout = Layout(fit.model, len(self.channels))
-        left = -fit.residuals_on(self.part)[:, self.channels]
-        _, slopes = ln_with_slopes(layout, surface, self.inside)
-        ln, onward = ln_with_slopes(layout, surface, self.there)
-        channels = range(len(self.channels))
-        missed = tuple(foretold(self.places, left[:, c], slopes[:, c], onward[:, c]) for c in channels)
-        return _Said(ln, missed)
+    def weighs(self, place: int, fit: Fit) -> tuple[Weighed, ...]:
+        """What the values say of the law at this place, by channel."""
+        _, slopes = ln_with_slopes(Layout(fit.model, len(self.channels)), thinned_surface(fit), self.inside)
+        left = self.left[place]
+        return tuple(weighed(self.places, left[:, c], slopes[:, c]) for c in range(len(self.channels)))
 
-    def evidence(self, said: _Said) -> float:
-        """ln of how probable it makes the values: of one channel, since all tell of the same directions."""
-        return float(np.mean([each.evidence for each in said.missed]))
+    def foretells(self, fit: Fit, known: tuple[Weighed, ...]) -> _Said:
+        """What a law says outside, and what it misses there."""
+        ln, onward = ln_with_slopes(Layout(fit.model, len(self.channels)), thinned_surface(fit), self.there)
+        return _Said(ln, tuple(each.elsewhere(onward[:, c]) for c, each in enumerate(known)))
+
+    def evidence(self, known: tuple[Weighed, ...]) -> float:
+        """ln of how probable a law makes the values: of one channel, since all tell of the same directions."""
+        return float(np.mean([each.evidence for each in known]))
 
     def error(self, said: _Said, gap: np.ndarray, weights: np.ndarray) -> float:
         """rms of ln of the recommended law outside if this one is right, which lies `gap` above it."""

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..records import dataclass
 
+SILENT = 1e-15  # of the largest eigenvalue, up to which an eigenvector says nothing of other places
 RATIOS = np.geomspace(0.1, 1e4, 16)  # (s/n)²
 LEAST_NOISE = 1e-8  # n²
 ROUNDS = 4  # in which n² settles
@@ -21,64 +22,96 @@ COUNTS = 0.01  # probability of an s/n below which it is left out
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """The kernel's eigenvalues (N,) and eigenvectors (N, N) between the places with values, and that from M others to
-    them, by eigenvectors (M, N)."""
+    """The kernel's eigenvalues (N,) and eigenvectors (N, N) between the places with values, smallest first, and that
+    from M others to them, by the last R eigenvectors (M, R), which say something."""
 
     strength: np.ndarray
     vectors: np.ndarray
     onward: np.ndarray
 
     @cached_property
+    def heard(self) -> slice:
+        """The last R."""
+        return slice(len(self.strength) - self.onward.shape[1], None)
+
+    @cached_property
     def onward_squares(self) -> np.ndarray:
         return self.onward**2
+
+    @cached_property
+    def ln_weights(self) -> np.ndarray:
+        """Sums of ln 1/(1 + (s/n)² strength) for each of RATIOS."""
+        return -np.log1p(RATIOS[:, None] * self.strength).sum(axis=1)
 
     @classmethod
     def between(cls, known: np.ndarray, others: np.ndarray) -> "Places":
         """Of places as points (N, d) and (M, d) of which the kernel is exp(-distance²/2)."""
         strength, vectors = np.linalg.eigh(gaussian_kernel(known, known))
-        return cls(np.maximum(strength, 0.0), vectors, gaussian_kernel(others, known) @ vectors)
+        first = int(np.searchsorted(strength, SILENT * strength[-1])) if len(strength) else 0
+        return cls(np.maximum(strength, 0.0), vectors, gaussian_kernel(others, known) @ vectors[:, first:])
 
 
 @dataclass(frozen=True, eq=False)
 class Foretold:
-    """What values say: ln of how probable they are, and of J b + δ elsewhere the mean and the variance (M,); n²."""
+    """What values say of J b + δ elsewhere: the mean and the variance (M,); and n²."""
 
-    evidence: float
     mean: np.ndarray
     variance: np.ndarray
     noise: float
 
 
-def foretold(places: Places, values: np.ndarray, slopes: np.ndarray, onward_slopes: np.ndarray) -> Foretold:
-    """Takes  values r (N,), slopes J (N, p) where they are and (M, p) elsewhere."""
+@dataclass(frozen=True, eq=False)
+class Weighed:
+    """What values say at their own places: ln of how probable they are, and of each (s/n)² that counts how probable it
+    is, n², the equations of b and their solution; values and slopes by eigenvectors."""
+
+    places: Places
+    evidence: float
+    probable: np.ndarray  # (K,)
+    ratio: np.ndarray  # (K,)
+    weight: np.ndarray  # (K, N)
+    noise: np.ndarray  # (K,)
+    inside: np.ndarray  # (K, p, p)
+    moved: np.ndarray  # (K, p)
+    values: np.ndarray  # (N,)
+    slopes: np.ndarray  # (N, p)
+
+    def elsewhere(self, onward_slopes: np.ndarray) -> Foretold:
+        """Takes  slopes J (M, p) elsewhere."""
+        heard, onward = self.places.heard, self.places.onward
+        q, j, pull = self.values[heard], self.slopes[heard], self.ratio[:, None] * self.weight[:, heard]
+        here = onward_slopes @ self.moved.T + onward @ (pull * (q - self.moved @ j.T)).T
+        loose = onward_slopes - onward @ (pull[:, :, None] * j)
+        of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)
+        of_slopes = np.sum(loose * np.linalg.solve(self.inside, loose.transpose(0, 2, 1)).transpose(0, 2, 1), axis=2).T
+        mean = here @ self.probable
+        square = (here**2 + self.noise * np.maximum(of_unknown + of_slopes, 0.0)) @ self.probable
+        share = self.probable.sum()
+        mean, square = mean / share, square / share
+        return Foretold(mean, np.maximum(square - mean**2, 0.0), float(self.probable @ self.noise / share))
+
+
+def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
+    """Takes  values r (N,), and slopes J (N, p) where they are."""
     q, j = places.vectors.T @ values, places.vectors.T @ slopes
     count, unit = len(values), np.eye(j.shape[1])
     weight = 1 / (1 + RATIOS[:, None] * places.strength)
-    products, pull, power = np.einsum("kn,np,nq->kpq", weight, j, j), (weight * q) @ j, weight @ q**2
+    products, pull, power = j.T @ (weight[:, :, None] * j), (weight * q) @ j, weight @ q**2
     noise = np.maximum(power / count, LEAST_NOISE)
     for _ in range(ROUNDS):
         moved = _solved(products + noise[:, None, None] * unit, pull)
         noise = np.maximum((power - np.sum(pull * moved, axis=1)) / count, LEAST_NOISE)
     inside = products + noise[:, None, None] * unit
     moved = _solved(inside, pull)
-    determinant = np.linalg.slogdet(inside)[1] - j.shape[1] * np.log(noise) - np.log(weight).sum(axis=1)
+    determinant = np.linalg.slogdet(inside)[1] - j.shape[1] * np.log(noise) - places.ln_weights
     left = (power - np.sum(pull * moved, axis=1)) / noise
     evidence = -0.5 * (count * np.log(noise) + determinant + left)
     probable = np.exp(evidence - evidence.max())
-    total = np.log(np.mean(probable)) + evidence.max()
+    total = float(np.log(np.mean(probable)) + evidence.max())
     probable = np.where(probable >= COUNTS * probable.max(), probable, 0.0) / probable.sum()
     kept = np.flatnonzero(probable)
-    probable, ratio, weight, noise = probable[kept], RATIOS[kept], weight[kept], noise[kept]
-    inside, moved = inside[kept], moved[kept]
-    here = onward_slopes @ moved.T + places.onward @ (ratio[:, None] * weight * (q - moved @ j.T)).T
-    loose = onward_slopes - places.onward @ ((ratio[:, None] * weight)[:, :, None] * j)
-    of_unknown = ratio * (1 - ratio * (places.onward_squares @ weight.T))
-    of_slopes = np.sum(loose * np.linalg.solve(inside, loose.transpose(0, 2, 1)).transpose(0, 2, 1), axis=2).T
-    mean = here @ probable
-    square = (here**2 + noise * np.maximum(of_unknown + of_slopes, 0.0)) @ probable
-    share = probable.sum()
-    mean, square = mean / share, square / share
-    return Foretold(float(total), mean, np.maximum(square - mean**2, 0.0), float(probable @ noise / share))
+    known = (each[kept] for each in (probable, RATIOS, weight, noise, inside, moved))
+    return Weighed(places, total, *known, q, j)
 
 
 def _solved(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from brdfguide.numerics import gaussian_process
-from brdfguide.numerics.gaussian_process import Places, foretold
+from brdfguide.numerics.gaussian_process import Places, weighed
 
 RANDOM = np.random.default_rng(7)
 KNOWN, OTHERS = RANDOM.uniform(0, 4, (40, 2)), RANDOM.uniform(0, 4, (9, 2))
@@ -18,7 +18,8 @@ def _kernel(one, other):
 def test_mean_and_variance_are_those_of_one_large_normal_distribution(monkeypatch):
     monkeypatch.setattr(gaussian_process, "RATIOS", np.array([30.0]))
     values = RANDOM.standard_normal(40)
-    found = foretold(Places.between(KNOWN, OTHERS), values, SLOPES, ONWARD)
+    known = weighed(Places.between(KNOWN, OTHERS), values, SLOPES)
+    found = known.elsewhere(ONWARD)
     ratio = 30.0 * found.noise
     inside = ratio * _kernel(KNOWN, KNOWN) + SLOPES @ SLOPES.T + found.noise * np.eye(40)
     across = ratio * _kernel(OTHERS, KNOWN) + ONWARD @ SLOPES.T
@@ -27,7 +28,7 @@ def test_mean_and_variance_are_those_of_one_large_normal_distribution(monkeypatc
     variance = prior - np.sum(across * np.linalg.solve(inside, across.T).T, axis=1)
     assert found.variance == pytest.approx(variance, rel=1e-6)
     evidence = -0.5 * (np.linalg.slogdet(inside)[1] + values @ np.linalg.solve(inside, values))
-    assert found.evidence == pytest.approx(evidence, rel=1e-6)
+    assert known.evidence == pytest.approx(evidence, rel=1e-6)
 
 
 def test_errors_elsewhere_are_as_large_as_foretold_on_seeds_0_to_59():
@@ -38,7 +39,7 @@ def test_errors_elsewhere_are_as_large_as_foretold_on_seeds_0_to_59():
         random = np.random.default_rng(seed)
         unknown, b = 0.2 * root @ random.standard_normal(49), random.standard_normal(2)
         values = unknown[:40] + SLOPES @ b + 0.02 * random.standard_normal(40)
-        found = foretold(Places.between(KNOWN, OTHERS), values, SLOPES, ONWARD)
+        found = weighed(Places.between(KNOWN, OTHERS), values, SLOPES).elsewhere(ONWARD)
         squares += np.sum((unknown[40:] + ONWARD @ b - found.mean) ** 2)
         foreseen += np.sum(found.variance)
     assert 0.8 < squares / foreseen < 1.25
