@@ -15,6 +15,7 @@ from ..formed import formed
 from ..models import Composite
 from ..models.surface import Surface
 from ..physics.aperture import Instrument
+from ..physics.directions import gathered
 from ..physics.geometry import Geometry, in_plane, rows
 from ..records import dataclass
 from . import starting_grid
@@ -88,8 +89,8 @@ def growth(fit: Fit, measurement: Measurement) -> dict | None:
     grown = _grown(measurement)
     if grown is None:
         return None
-    surface = fit.surface.channel(measurement.brdf.shape[1] // 2)
-    model = [tuple(float(np.max(reading(surface, each))) for each in (mirror, scan)) for mirror, scan in grown.at]
+    read = reading(fit.surface.channel(measurement.brdf.shape[1] // 2), grown.at)
+    model = [tuple(float(np.max(read[part])) for part in parts) for parts in grown.parts]
     angles, data = grown.angles, grown.data
 
     def ratio(pair, place):
@@ -106,7 +107,8 @@ class _Grown:
     """Where the growth of a model is looked at, and what the data have there."""
 
     angles: tuple[float, float]  # of incidence [deg], the lowest and the highest
-    at: list[tuple[Instrument, Instrument]]  # of each the direction nearest to the mirror's, and a scan
+    at: Instrument  # all directions
+    parts: list[tuple[slice, slice]]  # of each incidence the one nearest to the mirror's, and a scan
     data: list[tuple[float, float]]  # of each the value nearest to the mirror direction, and the largest
 
 
@@ -119,13 +121,15 @@ def _grown(measurement: Measurement) -> _Grown | None:
     # a peak beyond the last detector angle is in no data
     angular_range = min(85.0, float(np.max(measurement.geom.theta_r_deg)))
     theta_r = np.linspace(-angular_range, angular_range, 171)
-    at, data = [], []
-    for theta in angles:
+    at, parts, data = list[Geometry](), [], []
+    for place, theta in enumerate(angles):
         nearest, mirror, largest = _peaks(measurement, theta, measurement.brdf.shape[1] // 2)
-        scan, nearest = rows(in_plane(theta, theta_r)), nearest or rows(in_plane(theta, [theta]))
-        at.append((Instrument(nearest, measurement.solid_angle), Instrument(scan, measurement.solid_angle)))
+        at += [nearest or rows(in_plane(theta, [theta])), rows(in_plane(theta, theta_r))]
+        first = place * (1 + len(theta_r))
+        parts.append((slice(first, first + 1), slice(first + 1, first + 1 + len(theta_r))))
         data.append((mirror, largest))
-    return _Grown(angles, at, data)
+    together = Geometry(gathered([each.directions for each in at]))
+    return _Grown(angles, Instrument(together, measurement.solid_angle), parts, data)
 
 
 def imitation(fit: Fit, held: HeldOut | None, single: float = np.inf) -> Finding | None:

@@ -21,12 +21,14 @@ from ..finding import Finding
 from ..flags import Effect
 from ..formed import formed
 from ..numerics.covariance import covariance_of
+from ..physics.aperture import Instrument
 from ..records import dataclass
 from . import weights
 from .diagnostics import standard_errors
 from .layout import Layout
 from .objective import METRICS, Misfit
 from .prepared import Prepared
+from .reading import reading
 
 GAIN = 0.02  # prior standard deviation of ln gain between scans: lamp and detector of a goniometer (ours)
 ZERO_DEG = 0.2  # prior standard deviation of the arm's zero (ours)
@@ -144,9 +146,11 @@ def _turned(measurement: Measurement, zero_deg: float) -> Measurement:
 
 
 @formed
-def _either_side(measurement: Measurement) -> tuple[Measurement, Measurement]:
-    """The same with the arm a little farther from the normal, and a little nearer."""
-    return _turned(measurement, STEP), _turned(measurement, -STEP)
+def _either_side(measurement: Measurement) -> Instrument:
+    """The directions with the arm a little farther from the normal, and then all of them a little nearer."""
+    count = len(measurement.brdf)
+    twice = measurement.geom[np.tile(np.arange(count), 2)]
+    return Instrument(arm_turned(twice, np.repeat((STEP, -STEP), count)[:, None]), measurement.solid_angle)
 
 
 class _Around(NamedTuple):
@@ -162,15 +166,11 @@ def _around(misfit: Misfit, shared, per_channel, scan, scans: int) -> _Around:
     """A gain is taken of the model: of a value near the dark level it would follow that value's own noise."""
     measurement = misfit.measurement
     read, residual, by_shared, by_own = misfit.with_reading(shared, per_channel)
-    model = np.where(measurement.weighed, read, np.nan)
-    gain = [
-        replace(misfit, measurement=replace(measurement, brdf=model * np.exp(sign * STEP))).of_reading(read)
-        for sign in (-1, 1)
-    ]
-    zero = [replace(misfit, measurement=side)(shared, per_channel, False) for side in _either_side(measurement)]
+    surface = misfit.layout.surface(shared, per_channel, measurement)
+    farther, nearer = np.split(reading(surface, _either_side(measurement)), 2)
     columns = np.zeros((*residual.shape, scans + 1))
-    columns[np.arange(len(scan)), :, scan] = (gain[0] - gain[1]) / (2 * STEP)
-    columns[..., -1] = (zero[0] - zero[1]) / (2 * STEP)
+    columns[np.arange(len(scan)), :, scan] = misfit.between(np.exp(STEP) * read, np.exp(-STEP) * read) / (2 * STEP)
+    columns[..., -1] = misfit.between(farther, nearer) / (2 * STEP)
     return _Around(residual, by_shared, by_own, columns)
 
 

@@ -130,6 +130,11 @@ class Misfit:
         f = f.T
         return self._residual(f if f.min() > SMALLEST else np.maximum(f, SMALLEST), self._root_weights).T
 
+    def between(self, one, other) -> np.ndarray:
+        """Differences of the residuals of two readings, (samples, channels) each."""
+        apart = self._metric.scale(np.maximum(one.T, SMALLEST)) - self._metric.scale(np.maximum(other.T, SMALLEST))
+        return (self._root_weights * apart).T
+
     def residuals_and_factor(self, f, kept=None):
         """Residuals of f (..., channels, samples), and what makes slopes of f slopes of them; 0 where not `kept`."""
         lit = f if f.min() > SMALLEST else np.maximum(f, SMALLEST)
