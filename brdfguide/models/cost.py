@@ -7,6 +7,7 @@ because whatever else a machine does can only add to it. Directions are fresh ea
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
+from contextvars import ContextVar
 from typing import TypeVar
 
 import numpy as np
@@ -144,24 +145,37 @@ def work(counted: Mapping[str, float]) -> float:
 def operations(evaluator: Callable, geom: Geometry) -> dict[str, float]:
     """Operations for each direction: exp (with log and the like), pow, div, sqrt, simple (add, multiply, compare)."""
     tally: Counter = Counter()
-
-    class Counted(np.ndarray):
-        def __array_ufunc__(self, ufunc, method, *inputs, out=None, **options):
-            bare, options = tuple(map(_bare, inputs)), {name: _bare(value) for name, value in options.items()}
-            if out is not None:
-                options["out"] = tuple(map(_bare, out))
-            result = getattr(ufunc, method)(*bare, **options)
-            tally[GROUP_OF.get(ufunc.__name__, "simple")] += max(map(np.size, (*bare, result)), default=0)
-            if out is not None:
-                return out[0] if len(out) == 1 else out
-            return result.view(Counted) if isinstance(result, np.ndarray) else result
-
-        def __array_function__(self, function, types, arguments, options):
-            result = super().__array_function__(function, types, arguments, options)
-            return result.view(Counted) if type(result) is np.ndarray else result
-
-    evaluator(Geometry(geom.directions.each(lambda values: np.array(values, float).view(Counted)), geom.wavelength))
+    counted = _TALLY.set(tally)
+    try:
+        evaluator(
+            Geometry(geom.directions.each(lambda values: np.array(values, float).view(_Counted)), geom.wavelength)
+        )
+    finally:
+        _TALLY.reset(counted)
     return {group: tally[group] / len(geom) for group in GROUPS}
+
+
+_TALLY: ContextVar[Counter] = ContextVar("tally")
+
+
+class _Counted(np.ndarray):
+    """An array whose operations are counted."""
+
+    def __array_ufunc__(self, ufunc, method, *inputs, out=None, **options):
+        bare, options = tuple(map(_bare, inputs)), {name: _bare(value) for name, value in options.items()}
+        if out is not None:
+            options["out"] = tuple(map(_bare, out))
+        result = getattr(ufunc, method)(*bare, **options)
+        sizes = [getattr(each, "size", 1) for each in bare]
+        sizes.append(np.size(result) if isinstance(result, tuple) else getattr(result, "size", 1))
+        _TALLY.get()[GROUP_OF.get(ufunc.__name__, "simple")] += max(sizes)
+        if out is not None:
+            return out[0] if len(out) == 1 else out
+        return result.view(_Counted) if isinstance(result, np.ndarray) else result
+
+    def __array_function__(self, function, types, arguments, options):
+        result = super().__array_function__(function, types, arguments, options)
+        return result.view(_Counted) if type(result) is np.ndarray else result
 
 
 def _bare(value):

@@ -211,7 +211,8 @@ def parameter_doubts(
                     Finding("unused", f"{key} is 0: the term is not needed", "note", "leave it out", subject=key)
                 )
         away = np.abs(value - parameter.origin) if parameter.log else np.maximum(np.abs(value), 1e-3 * span)
-        if np.median(error / np.maximum(away, 1e-300)) > LOOSE and np.any(value > parameter.low):
+        loose = error / np.maximum(away, 1e-300)
+        if (loose[0] if loose.size == 1 else np.median(loose)) > LOOSE and np.any(value > parameter.low):
             found.append(
                 Finding(
                     "undetermined",
