@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
@@ -37,15 +38,21 @@ class Together:
         misfit, layout = self.misfit, self.misfit.layout
         p, q = len(layout.shared), len(layout.per_channel)
         values = layout.decode_all(at[:, :p], at[:, p:].reshape(len(at), layout.channels, q))
-        f, slopes = reading.many_with_slopes(layout, values, misfit.measurement.instrument)
+        f, slopes = reading.many_with_slopes(layout, values, misfit.measurement.instrument, self._constant)
         shape = len(at), layout.channels, len(misfit.weights)
         kept = None if self.kept is None else self.kept[which, None, :]
         stacked = np.empty((*shape[:2], p + q + 1, shape[2]))
-        stacked[:, :, -1], factor = misfit.residuals_and_factor(np.broadcast_to(f, shape), kept)
+        f = f if np.shape(f) == shape else np.broadcast_to(f, shape)
+        stacked[:, :, -1], factor, least = misfit.residuals_and_factor(f, kept)
         for place, key in enumerate(layout.shared + layout.per_channel):
             np.multiply(slopes[key], factor, out=stacked[:, :, place])
-        misfit.within_range(f, stacked[:, :, :-1])
+        misfit.within_range(least, stacked[:, :, :-1])
         return stacked
+
+    @cached_property
+    def _constant(self) -> dict:
+        """What terms of which nothing but the amplitude is searched for give at each view."""
+        return {}
 
 
 @dataclass(frozen=True, eq=False)

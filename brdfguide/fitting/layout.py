@@ -170,11 +170,19 @@ class Layout:
         """Of many surfaces: coordinates (surfaces, p) and (surfaces, channels, q) as values (surfaces, 1, 1), or
         (surfaces, channels, 1) of those that each channel has; floats of what is not searched for. No walks."""
         values = self.model.defaults()
-        for place, key in enumerate(self.shared):
-            values[key] = from_coordinate(self.parameters[key], shared[:, place, None, None])
-        for place, key in enumerate(self.per_channel):
-            values[key] = from_coordinate(self.parameters[key], per_channel[:, :, place, None])
+        shared = self._from_coordinates[0](shared)[:, :, None, None]
+        per_channel = self._from_coordinates[1](per_channel)[:, :, :, None]
+        values.update(zip(self.shared, shared.swapaxes(0, 1), strict=True))
+        values.update(zip(self.per_channel, np.moveaxis(per_channel, 2, 0), strict=True))
         return values
+
+    @cached_property
+    def _from_coordinates(self) -> "tuple[_FromCoordinates, _FromCoordinates]":
+        """Of the shared coordinates and of those of each channel."""
+        shared, own = (
+            _FromCoordinates([self.parameters[key] for key in keys]) for keys in (self.shared, self.per_channel)
+        )
+        return shared, own
 
     def walked(self, slopes: dict, values: Mapping) -> dict:
         """Derivatives by the coordinates, from those by the coordinates of each parameter by itself."""
@@ -207,6 +215,29 @@ def from_coordinate(parameter: Parameter, coordinate):
     if not parameter.log:
         return coordinate
     return _inside(parameter, parameter.origin + np.exp(coordinate))
+
+
+class _FromCoordinates:
+    """Coordinates (..., parameters) as values, all of them at once."""
+
+    def __init__(self, parameters: Sequence[Parameter]):
+        self.log = np.array([p.log and p.period is None for p in parameters], bool)
+        self.low, self.high, self.origin = (
+            np.array([getattr(p, name) if p.log and p.period is None else free for p in parameters])
+            for name, free in (("low", -np.inf), ("high", np.inf), ("origin", 0.0))
+        )
+        self.periods = [(place, p.period) for place, p in enumerate(parameters) if p.period is not None]
+
+    def __call__(self, coordinates):
+        values = coordinates
+        if self.log.any():
+            values = np.where(self.log, self.origin + np.exp(np.where(self.log, coordinates, 0.0)), coordinates)
+            values = np.minimum(np.maximum(values, self.low), self.high)
+        if self.periods:
+            values = values.copy()
+            for place, period in self.periods:
+                values[..., place] = np.remainder(coordinates[..., place], period)
+        return values
 
 
 def _inside(parameter: Parameter, value):

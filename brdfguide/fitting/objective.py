@@ -120,9 +120,9 @@ class Misfit:
         """What the instrument would read (samples, channels); and residuals with their derivatives."""
         surface = self.layout.surface(shared, per_channel, self.measurement)
         f, slopes = reading.with_slopes(self.layout, surface, self.measurement.instrument)
-        r, factor = self.residuals_and_factor(f.T)
+        r, factor, least = self.residuals_and_factor(f.T)
         stacked = self._stack(slopes, factor)
-        self.within_range(f, stacked)
+        self.within_range(least, stacked)
         return f, r.T, *np.split(np.swapaxes(stacked, 1, 2), [len(self.layout.shared)], axis=2)
 
     def of_reading(self, f) -> np.ndarray:
@@ -136,18 +136,21 @@ class Misfit:
         return (self._root_weights * apart).T
 
     def residuals_and_factor(self, f, kept=None):
-        """Residuals of f (..., channels, samples), and what makes slopes of f slopes of them; 0 where not `kept`."""
-        lit = f if f.min() > SMALLEST else np.maximum(f, SMALLEST)
+        """Residuals of f (..., channels, samples), and what makes slopes of f slopes of them; 0 where not `kept`. And
+        the least of f."""
+        least = f.min()
+        lit = f if least > SMALLEST else np.maximum(f, SMALLEST)
         root_weights = self._root_weights if kept is None else self._root_weights * kept
         factor = root_weights * (1 / self._data if self.metric.relative else self._metric.slope(lit))
         if lit is not f and self._metric is METRICS["ln"]:  # a law that has underflowed has no slope left to follow
             factor = np.where(f > SMALLEST, factor, 0.0)
-        return self._residual(lit, root_weights), factor
+        return self._residual(lit, root_weights), factor, least
 
     @staticmethod
-    def within_range(f, slopes) -> None:
-        """Where a whole sum has underflowed, an amplitude's slope must not overflow when it is squared."""
-        if not np.min(f) > 1 / STEEPEST:
+    def within_range(least, slopes) -> None:
+        """Where a whole sum has underflowed, an amplitude's slope must not overflow when it is squared; `least` of the
+        sum's values."""
+        if not least > 1 / STEEPEST:
             np.clip(slopes, -STEEPEST, STEEPEST, out=slopes)
 
     def descend(self, start, tolerance: float, most: int = 400) -> Minimum:

@@ -84,23 +84,24 @@ def _finite_with_slopes(layout: Layout, surface: Surface, geom: Geometry) -> tup
     return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
 
 
-def many_with_slopes(layout: Layout, values: Mapping, instrument: Instrument):
+def many_with_slopes(layout: Layout, values: Mapping, instrument: Instrument, constant: dict):
     """`reading` and its slopes for many surfaces of one model, at the wavelengths of the instrument's directions.
 
-    Takes  values (surfaces, 1, 1), or (surfaces, channels, 1) where each channel has its own; no mirror beam.
+    Takes  values (surfaces, 1, 1), or (surfaces, channels, 1) where each channel has its own; no mirror beam; a dict
+    that keeps from call to call, of one layout and instrument, what no searched value changes.
     Gives  arrays that broadcast to (surfaces, channels, samples).
     """
     if instrument.solid_angle is None:
-        return _terms_with_slopes(layout, values, instrument.geom.channels_first)
+        return _terms_with_slopes(layout, values, instrument.geom.channels_first, constant)
     total, slopes = 0.0, dict.fromkeys(layout.parameters, 0.0)
-    for weight, geom in instrument.views:
-        part, part_slopes = _terms_with_slopes(layout, values, geom.channels_first)
+    for view, (weight, geom) in enumerate(instrument.views):
+        part, part_slopes = _terms_with_slopes(layout, values, geom.channels_first, constant.setdefault(view, {}))
         total = total + weight * part
         slopes = {key: slope + weight * part_slopes[key] for key, slope in slopes.items()}
     return total, slopes
 
 
-def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry):
+def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry, constant: dict | None = None):
     """The finite part and its derivative with respect to each free coordinate, amplitudes taken out of the laws; in
     what directions (1, samples), wavelengths (channels, 1) and values broadcast to.
 
@@ -115,7 +116,12 @@ def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry):
         height = of_term.get(amplitude, 1.0)
         unit = {**of_term, amplitude: 1.0} if amplitude else of_term
         wanted = [name for name in free if name != amplitude]
-        shape, known = evaluated.get(place) or _shape_and_slopes(model, geom, wanted, unit)
+        if constant is not None and not wanted and amplitude in free:
+            if place not in constant:
+                constant[place] = _shape_and_slopes(model, geom, wanted, unit)
+            shape, known = constant[place]
+        else:
+            shape, known = evaluated.get(place) or _shape_and_slopes(model, geom, wanted, unit)
         total = total + height * shape
         slopes_of_term = {amplitude: shape} if amplitude in free else {}
         for name in wanted:
