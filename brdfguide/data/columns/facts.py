@@ -1,5 +1,7 @@
 """What a name states outright: units, wavelength, angle, colour, quantity, scale, coverage factor; and what is left."""
 
+from functools import lru_cache
+
 from ...records import dataclass
 from .tokens import Token, tokens
 from .turning_sense import taken_sense
@@ -70,11 +72,16 @@ def facts(name: str, colours: bool = True) -> tuple[Column, list[Token]]:
 
 def spelt_out(text: str) -> list[Token]:
     """The tokens of a name or a line, with abbreviations as the words that they stand for."""
+    return list(_spelt_out(text))
+
+
+@lru_cache(maxsize=1024)  # comments are asked about each thing in turn, and the next file mostly has the same
+def _spelt_out(text: str) -> tuple[Token, ...]:
     found = tokens(text.strip().strip("\"'"), KNOWN)
     words = [token for token in found if token.is_word]
     alone = len(words) == 1 or len(words) == 2 and words[1].text in ANGLE_UNIT_OF
     table = SPELT | SPELT_ALONE if alone else SPELT
-    return [Token(word, token.depth) for token in found for word in table.get(token.text, token.text).split()]
+    return tuple(Token(word, token.depth) for token in found for word in table.get(token.text, token.text).split())
 
 
 def _of_a_value(word: str) -> bool:

@@ -5,6 +5,7 @@ accounted for to the last word by one rule of the vocabulary, or the column has 
 """
 
 from dataclasses import replace
+from functools import lru_cache
 from itertools import permutations
 
 from .facts import Column, facts
@@ -15,6 +16,7 @@ MOST_WORDS = 10  # of a name, beside its numbers and units; rules account for no
 HARMLESS = frozenset("/-:;,=@#|<>~'\"?&!")  # signs that say nothing where they are left over
 
 
+@lru_cache(maxsize=1024)
 def understood(name: str, place: int = 0, colours: bool = True) -> Column:
     """What a column's name says by itself; with `colours`, a last or first r, g, b, x, y or z is one."""
     column, left = facts(name, colours)
