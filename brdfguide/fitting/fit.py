@@ -1,6 +1,6 @@
 """One model, one measurement, one fit; `fit_all` maps it over the candidates. Never compares models."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from time import perf_counter
 
@@ -12,12 +12,13 @@ from ..finding import Finding
 from ..models import Composite
 from ..models.candidates import candidate_label
 from ..models.surface import Surface
-from ..numerics.least_squares import Minimum
+from ..numerics.least_squares import Minimum, standing
 from ..records import dataclass
 from . import drift, weights
 from .coarse_search import OUTRUN, Search, Sought, followed_on, search, search_all
 from .diagnostics import profile_intervals, scan_gains, sigma_bound, standard_errors, unnoticed_faults
 from .fit_options import FitOptions
+from .followed import End, Following, follow
 from .layout import Layout
 from .objective import METRICS, metric
 from .prepared import Prepared, Subset, expecting, few_channels, prepare
@@ -27,6 +28,7 @@ PRUNED = 4.0  # times the best error beyond which a model is not refined
 LEAST_PRUNED = 0.5  # rms below which every model is refined
 ASKED_OF_DRIFT = 3  # of the best models, whose misfit may be the instrument's
 ROBUST_ROUNDS = 4
+MOST_TO_SETTLE = 400  # evaluations
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -87,10 +89,13 @@ def fit(model: Composite, measurement: Measurement | Prepared, options: FitOptio
     return _beside_the_instrument(fits, [found.layout], data, options)[0]
 
 
-def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOptions) -> Fit:
-    """The fit that a search leads to, on that part of the data; on none it stays where the search ended and says so."""
+def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOptions, ended: End | None = None) -> Fit:
+    """The fit that a search leads to, on that part of the data; on none it stays where the search ended and says so.
+    `ended`: where that is, if it is known (`_ended_together`)."""
     began, layout, pruned = perf_counter(), searched.layout, on is None
-    best, on, evaluations = _settled(searched, data, on, options)
+    best, on, evaluations = (
+        _settled(searched, data, on, options) if ended is None else _told(searched, on, options, ended)
+    )
     surface = layout.surface(best.shared, best.per_channel, data.whole)
     values, residuals = surface.values, ln_residuals(surface, data.compared)
     part = _where_settled(data, residuals, surface)
@@ -153,11 +158,41 @@ def _where_settled(
     return ln_residuals(surface, few if found is None else drift.without_drift(few, found))
 
 
+def _ended_together(
+    searches: Sequence[Search], data: Prepared, parts: Sequence[Subset | None], options: FitOptions
+) -> list[End | None]:
+    """Where the descents of those end that take their steps side by side; None of the others, and where a part of the
+    data comes first or weights change on the way."""
+    if options.robust or len(data.near.weights) < len(data.settle.weights):
+        return [None] * len(searches)
+    goes = {}
+    for place, (each, on) in enumerate(zip(searches, parts, strict=True)):
+        if on is not None:
+            following = Following(on.misfit(each.layout, metric(options.metric)), [_start(each)])
+            if following.goes_together:
+                goes[place] = following
+    found = follow(list(goes.values()), 1e-6, MOST_TO_SETTLE)
+    ends = dict(zip(goes, (ends[0] for ends in found), strict=True))
+    return [ends.get(place) for place in range(len(searches))]
+
+
+def _told(searched: Search, on: Subset, options: FitOptions, ended: End) -> tuple[Minimum, Subset, int]:
+    """The same as `_settled`, of a descent that has ended."""
+    misfit = on.misfit(searched.layout, metric(options.metric))
+    best = standing(misfit, ended.shared, ended.per_channel, ended.evaluations, ended.converged)
+    return best, on, searched.evaluations + ended.evaluations
+
+
+def _start(searched: Search) -> tuple[np.ndarray, np.ndarray]:
+    """Where its search ended best, in all channels."""
+    shared, per_channel, _ = searched.ends[0]
+    return shared, _spread_over_channels(per_channel, searched.layout.channels)
+
+
 def _settled(searched: Search, data: Prepared, on: Subset | None, options: FitOptions) -> tuple[Minimum, Subset, int]:
     """The minimum on that part of the data, the part with its last weights, and all evaluations so far."""
     scale, layout, evaluations = metric(options.metric), searched.layout, searched.evaluations
-    shared, per_channel, _ = searched.ends[0]
-    start = shared, _spread_over_channels(per_channel, layout.channels)
+    start = _start(searched)
     if on is None or len(data.near.weights) < len(data.settle.weights):
         best = data.near.misfit(layout, scale).descend(start, 1e-5)
         start, evaluations = (best.shared, best.per_channel), evaluations + best.evaluations
@@ -197,11 +232,16 @@ def fit_all(
     searches += more(searches, data)
     best, fits = _best(searches), []
     data = data.expecting(best)
-    for each in searches:
+    parts = [
+        None
+        if each.rms > max(PRUNED * best, LEAST_PRUNED)
+        else (data.fewer if each.rms > OUTRUN * best else data.settle)
+        for each in searches
+    ]
+    ends = _ended_together(searches, data, parts, options)
+    for each, on, end in zip(searches, parts, ends, strict=True):
         progress(f"fitting {candidate_label(each.layout.model)}")
-        on = data.fewer if each.rms > OUTRUN * best else data.settle
-        pruned = each.rms > max(PRUNED * best, LEAST_PRUNED)
-        fits.append(settle(each, data, None if pruned else on, options))
+        fits.append(settle(each, data, on, options, end))
     fits = _over_all(fits, [each.rms <= OUTRUN * best for each in searches], data)
     return tuple(_beside_the_instrument(fits, [each.layout for each in searches], data, options))
 

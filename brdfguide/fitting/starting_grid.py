@@ -42,7 +42,7 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
     places = places[_in_order(layout, places)]
     if len(places) > MOST_SHAPES:
         places = places[:: len(places) // MOST_SHAPES + 1]
-    columns = np.empty((len(places), len(data), len(axes)))  # over the data
+    columns = np.empty((len(places), len(axes), len(data))).swapaxes(1, 2)  # over the data
     for term, basis in enumerate(bases):
         columns[:, :, term] = basis[places[:, term]]
     fixed, limits = _fixed_and_limits(layout)
@@ -112,7 +112,7 @@ def amplitudes_by_channel(layout: Layout, measurement: Measurement, starts: Sequ
         return []
     terms, (samples, channels) = layout.model.terms, measurement.brdf.shape
     data, usable = _asked(measurement)
-    columns = np.empty((len(starts), channels, samples, len(terms)))
+    columns = np.empty((len(starts), channels, len(terms), samples)).swapaxes(2, 3)
     for place, term in enumerate(terms):
         unit = {} if _is_fixed(layout, term) else {term.model.amplitude: 1.0}
         for number, start in enumerate(starts):

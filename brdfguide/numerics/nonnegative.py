@@ -16,7 +16,8 @@ def non_negative(columns: np.ndarray, fixed: np.ndarray, limits: np.ndarray, usa
     """
     shapes, _, terms = columns.shape
     squares = np.swapaxes(columns, 1, 2) @ columns
-    target = np.where(usable, 1 - columns[:, :, fixed].sum(axis=2), 0.0)
+    target = 1 - columns[:, :, fixed].sum(axis=2) if fixed.any() else np.ones(columns.shape[:2])
+    target *= usable
     right = (target[:, None, :] @ columns)[:, 0]
     best = np.where(fixed, 1.0, 0.0) * np.ones((shapes, terms))
     best_cost = np.zeros(shapes)
