@@ -37,7 +37,7 @@ class Together:
     def __call__(self, which, at) -> np.ndarray:
         misfit, layout = self.misfit, self.misfit.layout
         p, q = len(layout.shared), len(layout.per_channel)
-        values = layout.decode_all(at[:, :p], at[:, p:].reshape(len(at), layout.channels, q))
+        values = layout.decode_all(at)
         f, slopes = reading.many_with_slopes(layout, values, misfit.measurement.instrument, self._constant)
         shape = len(at), layout.channels, len(misfit.weights)
         kept = None if self.kept is None else self.kept[which, None, :]

@@ -166,23 +166,26 @@ class Layout:
         )
         return values
 
-    def decode_all(self, shared, per_channel) -> dict:
-        """Of many surfaces: coordinates (surfaces, p) and (surfaces, channels, q) as values (surfaces, 1, 1), or
-        (surfaces, channels, 1) of those that each channel has; floats of what is not searched for. No walks."""
-        values = self.model.defaults()
-        shared = self._from_coordinates[0](shared)[:, :, None, None]
-        per_channel = self._from_coordinates[1](per_channel)[:, :, :, None]
-        values.update(zip(self.shared, shared.swapaxes(0, 1), strict=True))
-        values.update(zip(self.per_channel, np.moveaxis(per_channel, 2, 0), strict=True))
+    def decode_all(self, at) -> dict:
+        """Of many surfaces: coordinates (surfaces, p + channels q), the shared ones and then those of each channel, as
+        values (surfaces, 1, 1), or (surfaces, channels, 1) of those that each channel has; floats of what is not
+        searched for. No walks."""
+        values, found, p = self._held.copy(), self._from_row(at), len(self.shared)
+        for place, key in enumerate(self.shared):
+            values[key] = found[:, place, None, None]
+        own = found[:, p:].reshape(len(at), self.channels, -1)
+        for place, key in enumerate(self.per_channel):
+            values[key] = own[:, :, place, None]
         return values
 
     @cached_property
-    def _from_coordinates(self) -> "tuple[_FromCoordinates, _FromCoordinates]":
-        """Of the shared coordinates and of those of each channel."""
-        shared, own = (
-            _FromCoordinates([self.parameters[key] for key in keys]) for keys in (self.shared, self.per_channel)
-        )
-        return shared, own
+    def _held(self) -> dict:
+        return self.model.defaults()
+
+    @cached_property
+    def _from_row(self) -> "_FromCoordinates":
+        own = [self.parameters[key] for key in self.per_channel]
+        return _FromCoordinates([*(self.parameters[key] for key in self.shared), *own * self.channels])
 
     def walked(self, slopes: dict, values: Mapping) -> dict:
         """Derivatives by the coordinates, from those by the coordinates of each parameter by itself."""
@@ -222,21 +225,21 @@ class _FromCoordinates:
 
     def __init__(self, parameters: Sequence[Parameter]):
         self.log = np.array([p.log and p.period is None for p in parameters], bool)
+        self.some, self.share = bool(self.log.any()), self.log.astype(float)
         self.low, self.high, self.origin = (
-            np.array([getattr(p, name) if p.log and p.period is None else free for p in parameters])
-            for name, free in (("low", -np.inf), ("high", np.inf), ("origin", 0.0))
+            np.array([getattr(p, name) for p in parameters], float) for name in ("low", "high", "origin")
         )
         self.periods = [(place, p.period) for place, p in enumerate(parameters) if p.period is not None]
 
-    def __call__(self, coordinates):
-        values = coordinates
-        if self.log.any():
-            values = np.where(self.log, self.origin + np.exp(np.where(self.log, coordinates, 0.0)), coordinates)
-            values = np.minimum(np.maximum(values, self.low), self.high)
+    def __call__(self, at):
+        values = at
+        if self.some:
+            values = self.origin + np.exp(at * self.share)
+            values = np.where(self.log, np.minimum(np.maximum(values, self.low), self.high), at)
         if self.periods:
             values = values.copy()
             for place, period in self.periods:
-                values[..., place] = np.remainder(coordinates[..., place], period)
+                values[..., place] = np.remainder(at[..., place], period)
         return values
 
 
