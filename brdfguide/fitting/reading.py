@@ -165,6 +165,9 @@ def _stacked(terms: list[dict], name: str, surfaces: int):
     each = [term[name] for term in terms]
     if not any(map(np.ndim, each)) and len(set(map(float, each))) == 1:
         return each[0]
+    shape = np.shape(each[0])
+    if len(shape) == 3 and all(np.shape(value) == shape for value in each):
+        return np.concatenate(each)
     channels = max(np.shape(value)[1] if np.ndim(value) == 3 else 1 for value in each)
     return np.concatenate([np.broadcast_to(value, (surfaces, channels, 1)) for value in each])
 

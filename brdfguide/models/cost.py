@@ -162,13 +162,16 @@ class _Counted(np.ndarray):
     """An array whose operations are counted."""
 
     def __array_ufunc__(self, ufunc, method, *inputs, out=None, **options):
-        bare, options = tuple(map(_bare, inputs)), {name: _bare(value) for name, value in options.items()}
+        bare = [each.view(np.ndarray) if type(each) is _Counted else each for each in inputs]
+        for name, value in options.items():
+            options[name] = _bare(value)
         if out is not None:
             options["out"] = tuple(map(_bare, out))
         result = getattr(ufunc, method)(*bare, **options)
-        sizes = [getattr(each, "size", 1) for each in bare]
-        sizes.append(np.size(result) if isinstance(result, tuple) else getattr(result, "size", 1))
-        _TALLY.get()[GROUP_OF.get(ufunc.__name__, "simple")] += max(sizes)
+        size = np.size(result) if isinstance(result, tuple) else getattr(result, "size", 1)
+        for each in bare:
+            size = max(size, getattr(each, "size", 1))
+        _TALLY.get()[GROUP_OF.get(ufunc.__name__, "simple")] += size
         if out is not None:
             return out[0] if len(out) == 1 else out
         return result.view(_Counted) if isinstance(result, np.ndarray) else result

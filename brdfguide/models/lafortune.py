@@ -36,12 +36,14 @@ def gradient(geom: Geometry, names, *, ks, tilt, exponent) -> dict[str, np.ndarr
     above, ln_base = _ln_base(geom, *_coefficients(tilt))
     lobe = np.where(above, np.exp(exponent * ln_base), 0.0)
     wide = np.abs(tilt) < pi / 4
-    sin, cos = np.where(wide, 1.0, np.sin(tilt)), np.cos(tilt)
-    turned = (
-        geom.dot_xy / -(cos**2)
-        if np.all(wide)
-        else np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
-    )
+    if not np.any(wide):
+        sin = np.sin(tilt)
+        turned = geom.cos_cos / -(sin * np.abs(sin))
+    elif np.all(wide):
+        turned = geom.dot_xy / -(np.cos(tilt) ** 2)
+    else:
+        sin, cos = np.where(wide, 1.0, np.sin(tilt)), np.cos(tilt)
+        turned = np.where(wide, -geom.dot_xy / cos**2, -geom.cos_cos / (sin * np.abs(sin)))
     return {"ks": lobe, "tilt": lobe * turned * np.exp(-ln_base) * (ks * exponent), "exponent": lobe * ln_base * ks}
 
 
@@ -59,8 +61,11 @@ def c_z(tilt):
 
 def _coefficients(tilt):
     """-c_xy - 1, c_xy and c_z + c_xy; the last from the angle off the mirror lobe, where the two cancel."""
-    xy = c_xy(tilt)
-    length = np.where(np.abs(tilt) < pi / 4, np.cos(tilt), np.abs(np.sin(tilt)))
+    wide, sin = np.abs(tilt) < pi / 4, np.sin(tilt)
+    if np.any(wide):
+        xy, length = np.where(wide, -np.tan(tilt), -np.sign(tilt)), np.where(wide, np.cos(tilt), np.abs(sin))
+    else:
+        xy, length = -np.sign(tilt), np.abs(sin)
     return -xy - 1, xy, -sqrt(2) * np.sin(tilt - pi / 4) / length
 
 

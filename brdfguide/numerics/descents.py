@@ -175,11 +175,10 @@ class _State:
         grows = (gain >= GOOD) | (damping <= LEAST_DAMPING)
         kept = np.where(grows, np.maximum(radius, 3 * length), radius)
         self.radius[rows] = np.where(gain > POOR, kept, 0.5 * length)
-        with np.errstate(invalid="ignore"):  # where a gain is no number nothing was taken
-            faded = np.maximum(damping * np.maximum(1 / 3, 1 - (2 * gain - 1) ** 3), LEAST_DAMPING)
+        faded = np.maximum(damping * np.maximum(1 / 3, 1 - (2 * gain - 1) ** 3), LEAST_DAMPING)
         taken = gain > 0
         self.damping[rows] = np.where(taken, faded, damping)
-        self.least[rows] = np.where(taken, np.where(gain >= GOOD, LEAST_DAMPING, faded), least)
+        self.least[rows] = np.where(taken, np.where(gain >= GOOD, LEAST_DAMPING, faded), least)  # no number: not taken
 
     def remember(self, rows) -> None:
         self.history[rows, :-1] = self.history[rows, 1:]
@@ -212,7 +211,7 @@ def _step(problems: _All, state: _State, tolerance: float) -> None:
     """One step of every problem that is left; of those that end before it, none."""
     trial = np.minimum(np.maximum(state.at + state.steps(), state.low), state.high)
     step = trial - state.at
-    promised = -(2 * (state.slope * step).sum(axis=1) + (step[:, None, :] @ state.normal @ step[:, :, None])[:, 0, 0])
+    promised = -np.einsum("bk,bk->b", step, 2 * state.slope + (state.normal @ step[:, :, None])[:, :, 0])
     short = (np.abs(step) / (1e-3 + np.abs(state.at))).max(axis=1, initial=0.0) < tolerance * 1e-2
     state.converged = short | ((state.damping < 1e-3) & (promised > 0) & (promised < tolerance * 1e-1 * state.cost))
     climbs = ~state.converged & ~(promised > 0)
@@ -264,7 +263,7 @@ def _diagonal(matrices) -> np.ndarray:
 
 
 def _length(steps) -> np.ndarray:
-    return np.sqrt((steps * steps).sum(axis=1))
+    return np.sqrt(np.einsum("bk,bk->b", steps, steps))
 
 
 def _inverses(matrices) -> np.ndarray:

@@ -14,7 +14,8 @@ from math import pi, sqrt
 
 import numpy as np
 
-from .geometry import Geometry
+from ..formed import formed
+from .geometry import Directions, Geometry
 
 # 1/√π - x erfcx(x) as a ratio of polynomials, highest power first, fitted by benchmarks/ramp.py: right to 6e-16 of
 # x + cos θ Λ for x <= 6; beyond, exp(-x²) leaves nothing of it. All coefficients are positive, so no digit is lost.
@@ -94,10 +95,9 @@ def beckmann(geom: Geometry, alpha) -> np.ndarray:
 
 def beckmann_shape(geom: Geometry, alpha) -> np.ndarray:
     """Shape of Gaussian facets with correlated heights [1/sr]."""
-    hidden, _ = _hidden(geom.tan_i, alpha)
-    hidden *= geom.sin_i * geom.cos_r
-    other, _ = _hidden(geom.tan_r, alpha)
-    other *= geom.sin_r * geom.cos_i
+    (hidden, other), _, (in_i, in_r) = _hidden_both(geom, alpha)
+    hidden *= in_i
+    other *= in_r
     hidden += other
     hidden *= 2 * alpha
     return beckmann(geom, alpha) / (hidden + 4 * geom.cos_cos)
@@ -106,17 +106,27 @@ def beckmann_shape(geom: Geometry, alpha) -> np.ndarray:
 def beckmann_shape_and_slope(geom: Geometry, alpha) -> tuple[np.ndarray, np.ndarray]:
     """The same, and d ln shape/dalpha = (2/alpha)(t/alpha² - 1) - d ln(1 + Λi + Λr)/dalpha, with cos θ dΛ/dalpha = sin
     θ exp(-x²)/(2√π)."""
-    (hidden_i, gaussian_i), (hidden_r, gaussian_r) = _hidden(geom.tan_i, alpha), _hidden(geom.tan_r, alpha)
-    in_i, in_r = geom.sin_i * geom.cos_r, geom.sin_r * geom.cos_i
+    (hidden_i, hidden_r), (gaussian_i, gaussian_r), (in_i, in_r) = _hidden_both(geom, alpha)
     masking = (2 * alpha) * (hidden_i * in_i + hidden_r * in_r) + 4 * geom.cos_cos
     rise = (gaussian_i * in_i + gaussian_r * in_r) * (2 / sqrt(pi))
     by_alpha = (2 / alpha) * (geom.tan2_h / alpha**2 - 1) - rise / masking
     return beckmann(geom, alpha) / masking, by_alpha
 
 
-def _hidden(tan, alpha):
-    """Λ/(½ alpha tan θ) = exp(-x²) (1/√π - x erfcx x), and exp(-x²)."""
-    return hidden_by_slope(tan * alpha)
+def _hidden_both(geom: Geometry, alpha):
+    """Λ/(½ alpha tan θ) = exp(-x²) (1/√π - x erfcx x), exp(-x²), and sin θ times the other's cosine: of light and view
+    in one call each."""
+    tan, across = _tangents(geom)
+    more = np.ndim(alpha) - np.ndim(geom.cos_i)
+    if more > 0:
+        tan = tan.reshape(2, *(1,) * more, *tan.shape[1:])
+    return *hidden_by_slope(tan * alpha), across
+
+
+@formed
+def _tangents(to: Directions) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """tan θ of light and view, (2, ...), and the sine of each times the other's cosine."""
+    return np.stack((to.tan_i, to.tan_r)), (to.sin_i * to.cos_r, to.sin_r * to.cos_i)
 
 
 def hidden_by_slope(slope):
