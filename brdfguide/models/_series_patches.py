@@ -1,6 +1,6 @@
 """The sum for few samples: parts of its cells with as many coefficients each, which every sample fetches for itself.
 
-A cell of `_series_cells` divided into 8 by 8 patches needs 7 by 7 coefficients in each, to 4e-12. So no sample has to
+A cell of `_series_cells` divided into 8 by 8 patches needs 7 by 7 coefficients in each. So no sample has to
 be sorted, none waits for another, and a few calls do for all of them, whatever cells they lie in. Patches are formed
 from a cell's own polynomial when it is first touched, and kept.
 """
@@ -29,7 +29,7 @@ from ._series_cells import (
 PATCHES = 8  # along each side of a cell
 TERMS = 7  # powers along each side of a patch
 ROUND = 1024  # samples at once, so that what is fetched for them stays in the processor's cache
-UNKNOWN, BY_TERMS = -1, -2  # in place of a cell: not yet divided; to be summed term by term
+UNKNOWN, BY_TERMS = -2, -1  # in place of a cell: not yet divided; to be summed term by term
 BEYOND = OCTAVES_G * OCTAVES_Y * PARTS  # the number of what lies in no cell
 PLACES = np.full(BEYOND + 1, UNKNOWN, np.intp)  # of each cell among those that were divided
 PLACES[BEYOND] = BY_TERMS
@@ -38,7 +38,7 @@ GROWS = Lock()
 
 
 def ln_series(g, y, derivatives: bool = False):
-    """ln S to 1e-11, for g > 0 and y >= 0, which broadcast.
+    """ln S to 2e-11, for g > 0 and y >= 0, which broadcast.
 
     With `derivatives`: (ln S, d ln S/d ln g, d ln S/dy), these to 1e-8.
     """

@@ -165,6 +165,23 @@ def test_a_sample_hangs_on_no_other_in_its_cell_with_seed_34():
     np.testing.assert_allclose(few, many, rtol=2e-14, atol=1e-14)
 
 
+def test_what_lies_in_no_cell_keeps_no_new_cell_from_being_computed():
+    """One sample outside all cells, one in a cell that nothing touched before: 2^-39 is in no other test."""
+    g, y = np.array([1e-14, 1.5 * 2.0**-39]), np.array([0.3, 11.0])
+    np.testing.assert_allclose(ln_series(g, y), by_terms(g, y)[0], rtol=1e-12)
+
+
+def test_few_samples_and_many_are_summed_alike_with_seed_35():
+    random = np.random.default_rng(35)
+    g, y = 10 ** random.uniform(-6, 3, 20_000), 10 ** random.uniform(-3, 3, 20_000)
+    many = np.array(ln_series(g, y, derivatives=True))
+    few = np.concatenate(
+        [np.array(ln_series(*each, True)) for each in zip(np.split(g, 40), np.split(y, 40), strict=True)], axis=1
+    )
+    np.testing.assert_allclose(few[0], many[0], rtol=1e-13, atol=2e-11)
+    np.testing.assert_allclose(few[1:], many[1:], rtol=1e-8, atol=1e-8)
+
+
 def test_outside_the_cells_the_terms_are_summed():
     g, y = np.array([1e-14, 1e-20, 1e9, 3.0]), np.array([0.3, 2.0, 1e9, 1e6])
     np.testing.assert_array_equal(ln_series(g, y), by_terms(g, y)[0])
