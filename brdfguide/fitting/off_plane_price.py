@@ -190,10 +190,18 @@ class _Known:
 
     @classmethod
     def of(cls, measurement: Measurement, laws: list[Row], there: Instrument) -> "_Known":
-        kept = measurement[measurement.has_value]
-        part = kept[starting_grid.spread_rows(kept, SAMPLES)]
+        rows = np.flatnonzero(measurement.has_value)
+        rows = rows[starting_grid.spread_rows(measurement[rows], SAMPLES)]
+        part = measurement[rows]
         channels = few_channels(measurement.brdf.shape[1])
-        left = [-row.fit.residuals_on(part)[:, channels] for row in laws]
+        left = [
+            -(
+                row.fit.residuals[rows]
+                if len(row.fit.residuals) == len(measurement.brdf)
+                else row.fit.residuals_on(part)
+            )[:, channels]
+            for row in laws
+        ]
         clear = np.all([np.isfinite(each).all(axis=1) for each in left], axis=0)
         part = part[clear]
         geom = part.of_channels(channels).geom
