@@ -272,6 +272,8 @@ def _inverses(matrices) -> np.ndarray:
         return matrices
     try:
         found = np.linalg.inv(matrices)
+        if np.isfinite(found).all():
+            return found
         bad = ~np.isfinite(found).all(axis=(1, 2))
     except np.linalg.LinAlgError:
         found, bad = np.empty_like(matrices), np.ones(len(matrices), bool)
