@@ -1,6 +1,6 @@
 """How a fitted model behaves where it was not fitted: left-out angles and turns, toward grazing, imitated spikes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -23,10 +23,10 @@ from .choosing import recommending
 from .fit import Fit, FitOptions
 from .followed import End, Following, follow
 from .layout import Layout
-from .objective import Misfit, metric
+from .objective import SMALLEST, Misfit, metric
 from .prepared import few_channels
 from .ranked import HeldOut, Ranking
-from .reading import reading
+from .reading import many, reading
 from .residuals import ln_residuals
 
 FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
@@ -59,19 +59,32 @@ def held_out_from(
         misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
         followings.append(Following(misfit, [layout.encode(values)] * len(folds), kept))
     found = follow(followings, 1e-4, 20)
-    return [_held_out(each.misfit.layout, ends, folds) for each, ends in zip(followings, found, strict=True)]
+    return [_held_out(each, ends, folds) for each, ends in zip(followings, found, strict=True)]
 
 
-def _held_out(layout: Layout, ends: list[End], folds: list["_Fold"]) -> HeldOut:
+def _held_out(following: Following, ends: list[End], folds: list["_Fold"]) -> HeldOut:
     squares, counts, last = 0.0, 0, np.nan
-    for end, fold in zip(ends, folds, strict=True):
-        inside = fold.inside
-        residuals = ln_residuals(layout.surface(end.shared, end.per_channel, inside), inside)
+    for residuals in _foretold(following, ends, folds):
         squares, counts = squares + np.nansum(residuals**2), counts + int(np.count_nonzero(np.isfinite(residuals)))
         last = float(np.sqrt(np.nanmean(residuals**2)))
     highest = folds[-1].inside
     told = highest.clear.any(axis=1)
     return HeldOut(float(np.sqrt(squares / counts)), last, float(highest.geom.theta_i_deg[told].max()))
+
+
+def _foretold(following: Following, ends: list[End], folds: list["_Fold"]) -> Iterator[np.ndarray]:
+    """ln(model/data) of each fold where it was left out; of all folds in one call where one can evaluate them."""
+    layout, used = following.misfit.layout, following.misfit.measurement
+    if not following.goes_together:
+        for end, fold in zip(ends, folds, strict=True):
+            yield ln_residuals(layout.surface(end.shared, end.per_channel, fold.inside), fold.inside)
+        return
+    at = np.array([np.concatenate((end.shared, end.per_channel.ravel())) for end in ends])
+    read = many(layout, layout.decode_all(at), used.instrument)
+    for each, fold in zip(read, folds, strict=True):
+        inside = ~fold.kept
+        residuals = np.log(np.maximum(each[:, inside].T, SMALLEST)) - used.ln[inside]
+        yield np.where(used.clear[inside], residuals, np.nan)
 
 
 def can_hold_out(used: Measurement) -> bool:

@@ -101,6 +101,13 @@ def many_with_slopes(layout: Layout, values: Mapping, instrument: Instrument, co
     return total, slopes
 
 
+def many(layout: Layout, values: Mapping, instrument: Instrument) -> np.ndarray:
+    """The same without slopes, (surfaces, channels, samples)."""
+    total = sum(weight * layout.model(geom.channels_first, values) for weight, geom in instrument.views)
+    surfaces = max((len(each) for each in values.values() if np.ndim(each) == 3), default=1)
+    return np.broadcast_to(total, (surfaces, layout.channels, len(instrument.geom)))
+
+
 def _terms_with_slopes(layout: Layout, values: Mapping, geom: Geometry, constant: dict | None = None):
     """The finite part and its derivative with respect to each free coordinate, amplitudes taken out of the laws; in
     what directions (1, samples), wavelengths (channels, 1) and values broadcast to.
