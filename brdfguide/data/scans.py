@@ -26,9 +26,9 @@ LEAST_COMMON = 5  # directions that two scans share
 COPIED = 0.9  # of them that are equal
 
 
-def arm_turned(geom: Geometry, zero_deg: float) -> Geometry:
-    """Directions whose detector stands farther from the normal: on the mirror side in a plane of incidence, and
-    everywhere where azimuths vary."""
+def arm_turned(geom: Geometry, zero_deg: float | np.ndarray) -> Geometry:
+    """Directions whose detector stands farther from the normal by an angle, or each by its own (samples, 1): on the
+    mirror side in a plane of incidence, and everywhere where azimuths vary."""
     theta = geom.signed_theta_r_deg if np.all(geom.off_plane_deg < 0.1) else geom.theta_r_deg
     turned = np.clip(theta + zero_deg, -89.9, 89.9)
     flipped = (turned < 0) != (theta < 0)

@@ -93,9 +93,10 @@ def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOpti
     """The fit that a search leads to, on that part of the data; on none it stays where the search ended and says so.
     `ended`: where that is, if it is known (`_ended_together`)."""
     began, layout, pruned = perf_counter(), searched.layout, on is None
-    best, on, evaluations = (
-        _settled(searched, data, on, options) if ended is None else _told(searched, on, options, ended)
-    )
+    if on is None or ended is None:
+        best, on, evaluations = _settled(searched, data, on, options)
+    else:
+        best, on, evaluations = _told(searched, on, options, ended)
     surface = layout.surface(best.shared, best.per_channel, data.whole)
     values, residuals = surface.values, ln_residuals(surface, data.compared)
     part = _where_settled(data, residuals, surface)
@@ -232,12 +233,9 @@ def fit_all(
     searches += more(searches, data)
     best, fits = _best(searches), []
     data = data.expecting(best)
-    parts = [
-        None
-        if each.rms > max(PRUNED * best, LEAST_PRUNED)
-        else (data.fewer if each.rms > OUTRUN * best else data.settle)
-        for each in searches
-    ]
+    pruned = [each.rms > max(PRUNED * best, LEAST_PRUNED) for each in searches]
+    near = [data.fewer if each.rms > OUTRUN * best else data.settle for each in searches]
+    parts = [None if left else on for left, on in zip(pruned, near, strict=True)]
     ends = _ended_together(searches, data, parts, options)
     for each, on, end in zip(searches, parts, ends, strict=True):
         progress(f"fitting {candidate_label(each.layout.model)}")

@@ -12,6 +12,7 @@ from math import log
 
 import numpy as np
 
+from ..numerics.chebyshev import transform
 from ._series import by_products, by_terms, peak_of_summand
 
 TAIL = 1e-12  # of ln S: smaller Chebyshev coefficients are dropped
@@ -116,14 +117,6 @@ def _at_nodes(g, ratio):
         every_g, y = np.broadcast_arrays(g[~apart, :, None], g[~apart, :, None] * ratio[~apart, None, :])
         values[~apart] = by_terms(every_g.ravel(), y.ravel(), derivatives=False)[0].reshape(y.shape)
     return values
-
-
-@cache
-def transform(count):
-    """Chebyshev coefficients from the values at the nodes."""
-    transform = np.cos(np.pi * np.arange(count)[:, None] * (np.arange(count) + 0.5) / count) * 2 / count
-    transform[0] /= 2
-    return transform
 
 
 def _powers(chebyshev, tails):

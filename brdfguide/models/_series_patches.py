@@ -11,6 +11,7 @@ from threading import Lock
 
 import numpy as np
 
+from ..numerics.chebyshev import transform
 from ._series import by_terms
 from ._series_cells import (
     CELLS,
@@ -23,7 +24,6 @@ from ._series_cells import (
     by_cells,
     compute_cells,
     to_powers,
-    transform,
 )
 
 PATCHES = 8  # along each side of a cell

@@ -110,8 +110,8 @@ def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
     total = float(np.log(np.mean(probable)) + evidence.max())
     probable = np.where(probable >= COUNTS * probable.max(), probable, 0.0) / probable.sum()
     kept = np.flatnonzero(probable)
-    known = (each[kept] for each in (probable, RATIOS, weight, noise, inside, moved))
-    return Weighed(places, total, *known, q, j)
+    probable, ratio, weight, noise = probable[kept], RATIOS[kept], weight[kept], noise[kept]
+    return Weighed(places, total, probable, ratio, weight, noise, inside[kept], moved[kept], q, j)
 
 
 def _solved(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
