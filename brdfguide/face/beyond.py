@@ -53,6 +53,7 @@ def add_beyond(
     from ..report.documents.digest import with_digest
 
     ranked, measurement, result = answer.ranking, answer.measurement, answer.document
+    before = result.copy()
     if asked.scene is not None:
         result |= scene_blocks(asked.scene, ranked, measurement, job.timing, bar)
     if asked.explain:
@@ -70,7 +71,8 @@ def add_beyond(
     surfaces = {}
     if asked.shader is not None:
         result["as"], surfaces[asked.shader] = fitted_as(asked.shader, ranked, measurement, kind, job.options)
-    result |= with_digest(result)
+    if any(value is not before.get(key) for key, value in result.items()):
+        result |= with_digest(result)
     return surfaces
 
 

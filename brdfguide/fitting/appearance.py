@@ -10,6 +10,7 @@ import numpy as np
 from ..data.measurement import LARGEST, Measurement
 from ..data.seen_weights import seen_weights, steps
 from ..finding import Finding
+from ..formed import formed
 from ..models.surface import Surface
 from ..physics import seen
 from ..physics.aperture import Instrument
@@ -69,16 +70,23 @@ def _mixing(colours):
 
 def too_coarse(surface: Surface, measurement: Measurement) -> Finding | None:
     """Says where a scan's steps are too wide for L*: the lobe is narrower than two of them."""
-    if not measurement.in_plane or len(measurement.geom) < 3:
+    step = _step_about_mirror_deg(measurement)
+    if step is None:
         return None
-    near = measurement[np.abs(measurement.geom.signed_theta_r_deg - measurement.geom.theta_i_deg)[:, 0] < 20]
-    if not len(near.geom):
-        return None
-    step, width = float(np.degrees(np.median(steps(near)[0]))), lobe_width_deg(surface)
+    width = lobe_width_deg(surface)
     if width is None or width >= TOO_NARROW * step:
         return None
     text = f"the lobe is {width:.2g} degrees wide and the readings beside the mirror direction lie {step:.2g} apart"
     return Finding("coarse-scan", text, "note", "L* is rough here; the order of the models is not in doubt")
+
+
+@formed
+def _step_about_mirror_deg(measurement: Measurement) -> float | None:
+    """Between readings about the mirror direction; None where there are none in the plane of incidence."""
+    if not measurement.in_plane or len(measurement.geom) < 3:
+        return None
+    near = measurement[np.abs(measurement.geom.signed_theta_r_deg - measurement.geom.theta_i_deg)[:, 0] < 20]
+    return float(np.degrees(np.median(steps(near)[0]))) if len(near.geom) else None
 
 
 def lobe_width_deg(surface: Surface) -> float | None:

@@ -14,6 +14,7 @@ from ..formed import formed
 from ..models import cost
 from ..numerics import pareto
 from ..physics import seen
+from ..physics.geometry import Geometry
 from . import appearance, prepared, weights
 from .choosing import recommending
 from .diagnostics import standard_errors
@@ -58,7 +59,8 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
     noise = max(noise, stated)
     blocks, bins = standard_errors.blocks_of(compared, along), incidence_bins(compared)
     times = time_all(fits, measurement) if timed else [0.0] * len(fits)
-    works = [work_of(fit, compared) for fit in fits]
+    counted = compared.geom[: cost.COUNTED]
+    works = [work_of(fit, counted) for fit in fits]
     on_front = pareto.on_front([(errors[index][metric], works[index]) for index in range(len(fits))])
     nearest = min(range(len(fits)), key=lambda i: (not np.isfinite(errors[i][SEEN]), errors[i][SEEN]))
     rows, tied = [], True
@@ -199,9 +201,9 @@ def time_all(fits: Sequence[Fit], measurement: Measurement) -> list[float]:
     return [min(ns[place]) / len(geom) for place in range(len(fits))]
 
 
-def work_of(fit: Fit, measurement: Measurement) -> float:
+def work_of(fit: Fit, geom: Geometry) -> float:
     """Operations for one direction and channel."""
-    return cost.work(cost.operations(fit.surface.channel(0).brdf, measurement.geom[:64]))
+    return cost.work(cost.operations(fit.surface.channel(0).brdf, geom))
 
 
 def _winner(metric: str, fits, errors) -> int:
