@@ -79,7 +79,7 @@ def _hidden(cos, sin, width, g, derivatives: bool = False):
     hidden = width * before * j
     if not derivatives:
         return (hidden,)
-    mean = chebyshev.by_value(_mean, 0.0, 1, g)[0]
+    mean = np.reshape([_mean(each) for each in np.ravel(g).tolist()], np.shape(g))
     return hidden, before * mean, hidden * ln_q + width * before * by_p[0]
 
 
@@ -129,10 +129,9 @@ def _narrow(g: float) -> float:
 
 
 @lru_cache(maxsize=256)
-def _mean(g: float):
+def _mean(g: float) -> float:
     """N/(2 (g - 3/2)): w times it is half the mean slope along a line."""
-    norm = _integrals(g - 0.5, np.zeros(1))[0][0]
-    return lambda x, count: [0.25 / (norm * (g - 1.5))]
+    return float(0.25 / (_integrals(g - 0.5, np.zeros(1))[0][0] * (g - 1.5)))
 
 
 def _integrals(p: float, s: np.ndarray):

@@ -50,8 +50,16 @@ def _refracted(outside: Directions, n) -> Inside:
         phi_i_deg=np.broadcast_to(outside.phi_i_deg, shape),
         phi_deg=np.broadcast_to(outside.phi_deg, shape),
     )
-    through_i, through_r = (fresnel.one_minus_fresnel(cos, n) for cos in (outside.cos_i, outside.cos_r))
+    both, more = outside.formed(_cosines), np.ndim(n) - np.ndim(outside.cos_i)
+    if more > 0:
+        both = both.reshape(2, *(1,) * more, *both.shape[1:])
+    through_i, through_r = fresnel.one_minus_fresnel(both, n)
     return Inside(inside, through_i * through_r / (n * n))
+
+
+def _cosines(outside: Directions) -> np.ndarray:
+    """cos θ of both directions, (2, ...)."""
+    return np.stack((outside.cos_i, outside.cos_r))
 
 
 class _Lately:
