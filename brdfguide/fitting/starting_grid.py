@@ -37,7 +37,7 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
     """
     judged = _judged(measurement)
     few, data = judged.few, judged.data
-    axes, bases = zip(*(_term_grid(layout, term, judged) for term in layout.model.terms), strict=True)
+    axes, bases, steps = zip(*(_term_grid(layout, term, judged) for term in layout.model.terms), strict=True)
     places = np.indices([len(axis) for axis in axes]).reshape(len(axes), -1).T
     places = places[_in_order(layout, places)]
     if len(places) > MOST_SHAPES:
@@ -49,18 +49,16 @@ def grid_starts(layout: Layout, measurement: Measurement, count: int = 2) -> lis
     amplitudes = non_negative(columns, fixed, limits)
     ratio = (columns @ amplitudes[:, :, None])[:, :, 0]
     error = np.sqrt(np.mean(np.log(np.maximum(ratio, SMALLEST / data)) ** 2, axis=1))
+    along = np.concatenate([each[places[:, term]] for term, each in enumerate(steps)], axis=1)
     picked: list[int] = []
     for candidate in np.argsort(error, kind="stable"):
-        if all(
-            np.sum(places[candidate] != places[other]) and _apart(places[candidate], places[other], axes)
-            for other in picked
-        ):
+        if _apart(along, candidate, picked):
             picked.append(int(candidate))
         if len(picked) == count:
             break
     # a narrow lobe without a body falls by decades: every wrong width is far off in ln, and its peak finds it better
     brightest = int(np.argmin((np.cbrt(ratio) - 1) ** 2 @ np.cbrt(data) ** 2))
-    if all(_apart(places[brightest], places[other], axes) for other in picked):
+    if _apart(along, brightest, picked):
         picked.append(brightest)
     starts = [_values(layout.model, axes, places[each], amplitudes[each]) for each in picked]
     starts += [{**starts[0], **grained} for grained in _grains(layout, measurement, starts[0])]
@@ -170,7 +168,7 @@ def _scans(measurement: Measurement):
 
 def _term_grid(layout: Layout, term, judged: _Judged):
     """The shapes of one term [(name, value)...] and its values at unit amplitude over the data, (shapes, samples);
-    formed once for all sums that hold the law."""
+    and which step each takes along each name, (shapes, names); formed once for all sums that hold the law."""
     searched = [p for p in term.model.parameters if term.key(p.name) in layout.parameters and not p.linear]
     names = [p.name for p in searched if p.name not in term.shared]  # what is shared is tried where it belongs
     base = {**term.model.defaults(), **layout.model.of_term(term, layout.model.defaults())}
@@ -184,7 +182,10 @@ def _term_grid(layout: Layout, term, judged: _Judged):
         at = dict(zip(names, np.array(grid).T, strict=True))  # shapes stand where channels do
         values = np.transpose(term.model(judged.geom, **{**base, **at}))
         values = np.broadcast_to(values, (len(grid), len(judged.geom))) / judged.data
-        judged.grids[asked] = [dict(zip(names, each, strict=True)) for each in grid], values
+        axes = [{value: step for step, value in enumerate(sorted(set(axis)))} for axis in along]
+        steps = [[axis[value] for axis, value in zip(axes, each, strict=True)] for each in grid]
+        shapes = [dict(zip(names, each, strict=True)) for each in grid]
+        judged.grids[asked] = shapes, values, np.reshape(steps, (len(grid), len(names))).astype(int)
     return judged.grids[asked]
 
 
@@ -225,14 +226,9 @@ def _amplitude_key(term) -> str:
     return term.key(term.model.amplitude or "")
 
 
-def _apart(one, other, axes) -> bool:
-    """Whether two shapes lie more than one grid step apart in some parameter."""
-    for term, axis in enumerate(axes):
-        for name in axis[0]:
-            values = sorted({shape[name] for shape in axis})
-            if abs(values.index(axis[one[term]][name]) - values.index(axis[other[term]][name])) > 1:
-                return True
-    return False
+def _apart(along, one: int, others: list[int]) -> bool:
+    """Whether a shape lies more than one grid step from each of others in some parameter."""
+    return all(np.abs(along[one] - along[other]).max(initial=0) > 1 for other in others)
 
 
 def _values(model: Composite, axes, places, amplitudes) -> dict:
