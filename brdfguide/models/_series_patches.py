@@ -1,8 +1,8 @@
 """The sum for few samples: parts of its cells with as many coefficients each, which every sample fetches for itself.
 
-A cell of `_series_cells` divided into 8 by 8 patches needs 7 by 7 coefficients in each. So no sample has to
-be sorted, none waits for another, and a few calls do for all of them, whatever cells they lie in. Patches are formed
-from a cell's own polynomial when it is first touched, and kept.
+A cell of `_series_cells` divided into 8 by 8 patches needs 7 by 7 coefficients in each. So no sample has to be sorted,
+none waits for another, and a few calls do for all of them, whatever cells they lie in. Patches are formed from a cell's
+own polynomial when it is first touched, and kept.
 """
 
 from functools import cache
