@@ -6,6 +6,8 @@ direction, lone surrogates, unassigned code points) and the separators of lines.
 UTF-8 is shown as that byte, `\\xff`.
 """
 
+from math import expm1
+
 MOST_LETTERS = 1200  # of a line in an error; the longest of ours, the names of all models, has some 700
 MOST_OF_A_WORD = 300  # a path has that much
 MOST_OF_A_COMMENT, BYTES_OF_A_COMMENT = 1800, 1900  # of a line of it, such as the command that made a file
@@ -188,3 +190,8 @@ def off_words(percent: float) -> str:
     if percent < 9.95:
         return f"{percent if percent >= LEAST_PERCENT else 0:.2g} %"
     return f"{percent:.0f} %" if percent < 99.5 else f"a factor {min(1 + percent / 100, 1e9):.2g}"
+
+
+def off_words_of(rms_ln: float) -> str:
+    """The same of an rms of ln."""
+    return off_words(100 * expm1(min(rms_ln, 50.0)))

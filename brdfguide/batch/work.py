@@ -11,9 +11,8 @@ from ..face.beyond import Beyond, add_beyond
 from ..face.functions import answered
 from ..fitting.job import Job, case
 from ..opening import Held
-from ..printable import off_words
+from ..printable import off_words, off_words_of
 from ..records import dataclass
-from ..report.text.values import off_words_of
 from .keys import canonical
 from .products import Product, make
 

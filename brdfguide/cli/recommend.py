@@ -139,8 +139,8 @@ def _for_target(answers, name: str) -> tuple[list, list[dict]]:
     """The answers, each headed by the candidate that the shader holds, and the shader's numbers with their error."""
     from ..exporters import coloured, held_best, statement_document
     from ..face.surfaces import every_candidate
+    from ..printable import off_words_of
     from ..report.documents.plain import plain
-    from ..report.text.values import off_words_of
 
     headed: list = []
     blocks: list[dict] = []

@@ -109,8 +109,8 @@ def _entry(row: dict, near=None) -> dict:
 
 
 def _table(found: list[dict]) -> str:
+    from ..printable import off_words_of
     from ..report.text.table import columns
-    from ..report.text.values import off_words_of
 
     if not found:
         return "nothing matches"

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import exp, expm1
 
 import numpy as np
 
 from ..physics import grain, microfacet
 from ..physics.geometry import Geometry
+from ..printable import off_words_of
 from . import _grained
 from ._choice import GOOD, ONE_LOBE, Choice, has_body, what_is_lost
 from ._directions import judged_over, rms_ln
@@ -64,7 +64,7 @@ def _lacks(node: Node, surface: ColouredSurface, choice: Choice) -> str:
     else:
         why = "its lobe is GGX's, and this one has another shape"
     high = _off_up_to(HIGH_DEG, surface, choice)
-    return why if high is None else f"{why}; up to {HIGH_DEG:g} degrees {_off(high)} off"
+    return why if high is None else f"{why}; up to {HIGH_DEG:g} degrees {off_words_of(high)} off"
 
 
 def _off_up_to(most_deg: float, surface: ColouredSurface, choice: Choice) -> float | None:
@@ -85,7 +85,9 @@ def readings(node: Node, choice: Choice, surface: ColouredSurface, geom: Geometr
     for words, law in node.law.readings.items():
         other: Callable = replace(node.law, brdf=law)
         error = rms_ln(other(geom, **{**node.law.defaults(), **choice.values}), wanted)
-        found.append(f"as MaterialX's nodes evaluate it; with {words}, as other programs have it, {_off(error)} off")
+        found.append(
+            f"as MaterialX's nodes evaluate it; with {words}, as other programs have it, {off_words_of(error)} off"
+        )
     return tuple(found)
 
 
@@ -101,8 +103,8 @@ def _one_width(node: Node, choice: Choice, surface: ColouredSurface, geom: Geome
     apart = grain.grained_shape(geom, wide, narrow, values["axis"]) / grain.grained_density(
         geom, wide, narrow, values["axis"]
     )
-    error = rms_ln(node.law(geom, **values) * alike / apart, wanted)
-    return (f"MaterialX masks light and view with one width, √(across along), however they stand: {_off(error)} off",)
+    off = off_words_of(rms_ln(node.law(geom, **values) * alike / apart, wanted))
+    return (f"MaterialX masks light and view with one width, √(across along), however they stand: {off} off",)
 
 
 def _streak(node: Node, axis: float) -> tuple[str, ...]:
@@ -112,8 +114,3 @@ def _streak(node: Node, axis: float) -> tuple[str, ...]:
     by = "nodes of the file turn" if node.law.name == "openpbr" else "its own rotation turns"
     turned = f"{np.degrees(axis) % 180:.3g} degrees counter-clockwise from the mesh's"
     return (f"the streak lies along the tangent that {by}, {turned}; the grooves run across it",)
-
-
-def _off(error: float) -> str:
-    """An rms of ln as people say it."""
-    return f"{100 * expm1(error):.2g} %" if error < 0.6 else f"a factor {exp(min(error, 20.0)):.2g}"

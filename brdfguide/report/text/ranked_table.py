@@ -2,10 +2,9 @@
 
 from math import floor, log10
 
-from ...printable import off_words
+from ...printable import off_words, off_words_of
 from ..documents.findings import codes
 from .table import columns, row_lines
-from .values import off_words_of
 
 HEADER = ("rank", "model", "off", "seen L*", "held-out", "doubts")
 RIGHT = (2, 3, 4)

@@ -3,13 +3,13 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...printable import off_words
+from ...printable import off_words, off_words_of
 from .floor import floor_text
 from .folding import folded, wrapped_text
 from .off_plane import off_plane_text
 from .ranked_table import detail_tables, legend, number_text, ranked_lines, told_rows
 from .stray_light import stray_light_text
-from .values import off_words_of, percent_words
+from .values import percent_words
 
 MOST_KNOWN = 1.0  # two standard errors, as a share of a value, from which on it could as well be zero
 MOST_TYPED = 4  # channels of which every value is told

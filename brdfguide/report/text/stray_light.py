@@ -2,8 +2,9 @@
 
 from collections.abc import Callable
 
+from ...printable import off_words_of
 from .scatter import length_text
-from .values import off_words_of, percent_words
+from .values import percent_words
 
 
 def stray_light_text(entries: list[dict], wrapped: Callable[[str], str]) -> str:

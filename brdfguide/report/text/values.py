@@ -1,8 +1,6 @@
 """Rows of values as CSV."""
 
-from math import expm1
-
-from ...printable import cell, comment, off_words
+from ...printable import cell, comment
 
 
 def csv(document: dict) -> str:
@@ -19,11 +17,6 @@ def residuals_csv(document: dict) -> str:
         angles = ",".join(f"{angle:.9g}" for angle in where)
         lines.append(f"{angles},{cell(channel)},{wavelength:g},{value:.9g},{model:.9g},{ratio:.9g}")
     return "\n".join(lines) + "\n"
-
-
-def off_words_of(rms_ln: float) -> str:
-    """The same of an rms of ln."""
-    return off_words(100 * expm1(min(rms_ln, 50.0)))
 
 
 def percent_words(share: float) -> str:
