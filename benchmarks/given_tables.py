@@ -11,6 +11,7 @@ import numpy as np
 from brdfguide.data import subsample
 from brdfguide.data.measurement import Measurement
 from brdfguide.fitting.job import Job, read_for_fit
+from brdfguide.physics.geometry import Geometry
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = Path(os.environ.get("BRDFGUIDE_DATA", ROOT.parent / "shared" / "data"))
@@ -28,6 +29,7 @@ TABLES = {
 THETA_MAX_DEG = 80.0
 MOST, JUDGED = 40_000, 4_000  # directions to choose from, and to judge by
 CHANNELS = 3
+MOVED_DEG = 2.0
 
 
 def tables():
@@ -58,6 +60,16 @@ def nearest(table: Measurement, geom, either_way: bool = False) -> np.ndarray:
     ways = [_vectors(table.geom), *([_vectors(table.geom.swapped())] if either_way else [])]
     apart = (np.min([np.sum((way - each) ** 2, axis=1) for way in ways], axis=0) for each in _vectors(geom))
     return np.unique([int(np.argmin(each)) for each in apart])
+
+
+def moved(geom: Geometry, random: np.random.Generator) -> Geometry:
+    """Directions with each angle moved by about `MOVED_DEG`, within the hemisphere that tables are judged in."""
+    off = MOVED_DEG * random.standard_normal((3, len(geom), 1))
+    theta_i, theta_r = (
+        np.clip(np.abs(angle + by), 0.0, THETA_MAX_DEG)
+        for angle, by in ((geom.theta_i_deg, off[0]), (geom.theta_r_deg, off[1]))
+    )
+    return Geometry.from_degrees(theta_i, 0.0, theta_r, geom.phi_deg + off[2] / np.maximum(geom.sin_r, 0.2))
 
 
 def _vectors(geom) -> np.ndarray:

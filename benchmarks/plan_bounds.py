@@ -70,6 +70,11 @@ class Linear:
         """The same of sets of rows (sets, rows)."""
         return self.ratio(self.squares[sets].sum(axis=1), self.toward[sets].sum(axis=1), self.values[sets].sum(axis=1))
 
+    def weighed(self, rows, weights) -> float:
+        """The same of some rows that count unlike."""
+        sums = (np.tensordot(weights, each[rows], 1)[None] for each in (self.squares, self.toward, self.values))
+        return float(self.ratio(*sums)[0])
+
     def with_each(self, rest) -> np.ndarray:
         """The same of some rows with one more, for each."""
         sums = (each[rest].sum(axis=0) + each for each in (self.squares, self.toward, self.values))
