@@ -13,6 +13,8 @@ from .records import dataclass
 
 WAITED_S = 5.0  # for a pipe's other end; a shell opens both at once
 PIECE = 2**20
+ARRAY_FOLDERS = ("zarr.json", ".zgroup", ".zarray")  # one of them in a folder: all of it is one file of arrays
+ARRAY_FOLDER = b"zarr folder\0"  # what such a folder begins with, read as one file
 MOST_HELD = 2**28  # bytes of an input that can be read only once, and is held
 
 
@@ -46,6 +48,9 @@ def open_for_reading(path, name: str):
         return
     try:
         mode = os.stat(path).st_mode
+        if stat.S_ISDIR(mode) and is_array_folder(path):
+            yield _ArrayFolder(Path(path), name)
+            return
         if stat.S_ISDIR(mode):
             raise InputError(f"{name} is a directory; wanted a file")
         with _pipe(path, name) if stat.S_ISFIFO(mode) else Path(path).open("rb") as stream:
@@ -84,10 +89,21 @@ def _all(stream, limit: int, name: str) -> bytes:
 def is_plain(path) -> bool:
     """Whether it is a file that comes to an end and can be read again: no pipe, no device, nothing of the kernel's."""
     try:
-        found = os.stat(path)
+        mode = os.stat(path).st_mode
     except (OSError, ValueError):
         return False
-    return stat.S_ISREG(found.st_mode) and not os.path.realpath(path).startswith(("/proc/", "/sys/"))
+    plain = stat.S_ISREG(mode) or stat.S_ISDIR(mode) and is_array_folder(path)
+    return plain and not os.path.realpath(path).startswith(("/proc/", "/sys/"))
+
+
+def is_array_folder(path) -> bool:
+    """Whether it is a folder that is one file of arrays, as zarr keeps them."""
+    return any(os.path.isfile(os.path.join(path, mark)) for mark in ARRAY_FOLDERS)
+
+
+def is_folder(path) -> bool:
+    """Whether it is a folder of files, not one that is a file of arrays."""
+    return os.path.isdir(path) and not is_array_folder(path)
 
 
 def exists(path) -> bool:
@@ -118,6 +134,44 @@ def _pipe(path, name: str):
         os.close(handle)
         raise
     return BufferedReader(_Begun(first, FileIO(handle)))
+
+
+class _ArrayFolder:
+    """read(size) over all files of a folder in the order of their names, each behind its name and size.
+
+    Raises InputError for what is no plain file in it, such as a link or a pipe.
+    """
+
+    def __init__(self, folder: Path, name: str):
+        self.folder, self.name = folder, name
+        self.files = sorted(each.relative_to(folder).as_posix() for each in folder.rglob("*") if not _is_own(each))
+        for file in self.files:
+            if not stat.S_ISREG(os.lstat(folder / file).st_mode):
+                raise InputError(f"{name}: '{file[:80]}' in it is no plain file")
+        self.pieces = self._pieces()
+        self.left = b""
+
+    def _pieces(self):
+        yield ARRAY_FOLDER
+        for file in self.files:
+            with (self.folder / file).open("rb") as stream:
+                yield f"{file}\0{os.fstat(stream.fileno()).st_size}\0".encode("utf-8", "surrogateescape")
+                while piece := stream.read(PIECE):
+                    yield piece
+
+    def read(self, size: int) -> bytes:
+        while not self.left:
+            try:
+                self.left = next(self.pieces)
+            except StopIteration:
+                return b""
+        piece, self.left = self.left[:size], self.left[size:]
+        return piece
+
+
+def _is_own(path: Path) -> bool:
+    """A folder that is one, not a link to one."""
+    return path.is_dir() and not path.is_symlink()
 
 
 class _Begun(RawIOBase):

@@ -64,6 +64,8 @@ CONSUMERS = (
     Consumer("rawpy", "raw photographs", lambda: package("rawpy", "rawpy")),
     Consumer("openpyxl", "workbooks", lambda: package("openpyxl", "openpyxl")),
     Consumer("pyarrow", "Parquet tables", lambda: package("pyarrow.parquet", "pyarrow")),
+    Consumer("h5py", "HDF5 tables", lambda: package("h5py", "h5py")),
+    Consumer("zarr", "zarr tables", lambda: package("zarr", "zarr")),
     Consumer("distributed", "a cluster for many surfaces", lambda: package("distributed", "distributed")),
     Consumer("mpmath", "judges laws with fifty digits", lambda: package("mpmath", "mpmath")),
     Consumer("scipy", "judges fits and functions", lambda: package("scipy", "scipy")),

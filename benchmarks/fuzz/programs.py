@@ -1,7 +1,9 @@
 """Files of optical engineers' and planners' programs, made from nothing: valid ones, and then damaged."""
 
 import io
+from pathlib import Path
 from random import Random
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from damage import NUMBERS, damaged
@@ -157,4 +159,49 @@ def parquet(draw: Random) -> bytes:
     return _bent(draw, stream.getvalue())
 
 
-MAKERS = {each.__name__: each for each in (speos, speos_brdf, tracepro, klems, utia, spreadsheet, parquet)}
+def _named(cell) -> str:
+    """As an array may be called."""
+    return str(cell).replace("/", "_").replace("\0", "_").strip("._ ")[:60] or "x"
+
+
+def hdf5(draw: Random) -> bytes:
+    import h5py
+
+    head, *rows = _cells(draw)
+    stream = io.BytesIO()
+    with h5py.File(stream, "w") as file:
+        if draw.random() < 0.5:
+            for place, column in enumerate(zip(*rows, strict=True)):
+                plain = all(type(x) is float for x in column)
+                name = _named(head[place])
+                made = file.require_group("it") if place % 5 == 4 and draw.random() < 0.1 else file
+                if name not in made:
+                    made[name] = list(column) if plain else [str(x).replace("\0", "_") for x in column]
+        else:
+            numbers = [[x if type(x) is float else 1.0 for x in row] for row in rows]
+            file["it"] = numbers
+            file["it"].attrs["columns"] = ",".join(map(str, head)).replace("\0", "_")
+    return _bent(draw, stream.getvalue())
+
+
+def zarr(draw: Random) -> dict[str, bytes]:
+    """The files of a folder of arrays."""
+    import zarr
+
+    head, *rows = _cells(draw)
+    numbers = np.array([[x if type(x) is float else 1.0 for x in row] for row in rows])
+    with TemporaryDirectory() as folder:
+        group = zarr.open_group(folder, mode="w")
+        if draw.random() < 0.5:
+            for name, column in zip(map(_named, head), numbers.T, strict=True):
+                if name not in group:
+                    group.create_array(name, data=column)
+        else:
+            group.create_array("it", data=numbers).attrs["columns"] = list(map(str, head))
+        every = sorted(each for each in Path(folder).rglob("*") if each.is_file())
+        files = {each.relative_to(folder).as_posix(): each.read_bytes() for each in every}
+    bent = draw.choice(sorted(files))
+    return files | {bent: _bent(draw, files[bent])}
+
+
+MAKERS = {each.__name__: each for each in (speos, speos_brdf, tracepro, klems, utia, spreadsheet, parquet, hdf5, zarr)}

@@ -4,6 +4,7 @@ import ast
 import contextlib
 import io
 import os
+import shutil
 import traceback
 import warnings
 from pathlib import Path
@@ -95,7 +96,7 @@ def _fit_to_be_shown(text: str) -> None:
         raise Unfit(f"signs that act: {ascii(text)[:200]}")
 
 
-def _read(content: bytes, fit: bool) -> None:
+def _read(content: bytes | dict[str, bytes], fit: bool) -> None:
     """Read, examined, told in words, written as plain CSV; a few are fitted too."""
     from brdfguide import printable
     from brdfguide.data import examine, formats
@@ -107,8 +108,7 @@ def _read(content: bytes, fit: bool) -> None:
     from brdfguide.report.text.inspection import text
     from brdfguide.report.text.ranking import ranking_text
 
-    path = Path("case")
-    path.write_bytes(content)
+    path = _placed(content)
     measurement = formats.read(path)
     if measurement.brdf.shape != (len(measurement.geom), len(measurement.channels)):
         raise Unfit(f"shape {measurement.brdf.shape}")
@@ -123,6 +123,19 @@ def _read(content: bytes, fit: bool) -> None:
         prepared = examine.prepared(measurement, anyway=True)
         ranked = compare(prepared, candidates.of_kind(None, ("lambertian+ggx", "lambertian")))
         _fit_to_be_shown(ranking_text(printable.document(fit_document.fit_document(ranked, prepared))))
+
+
+def _placed(content: bytes | dict[str, bytes]) -> Path:
+    """A file with this content, or a folder with these files."""
+    if isinstance(content, bytes):
+        Path("case").write_bytes(content)
+        return Path("case")
+    shutil.rmtree("case.zarr", ignore_errors=True)
+    for name, each in content.items():
+        place = Path("case.zarr", name)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(each)
+    return Path("case.zarr")
 
 
 def _saved(content: bytes) -> None:

@@ -16,7 +16,16 @@ from ..errors import InputError
 WITHOUT_NUMBERS = ("batch", "cli", "audit", "report/figures", "report/text", "report/page")
 ALL_BUT = ("batch", "cli", "audit")
 NUMERIC = (".py", ".csv", ".npy")
-EXTRAS = ("colour", "cv2", "rawpy", "OpenEXR", "openpyxl", "pyarrow")  # with one of them other files can be read
+EXTRAS = (
+    "colour",
+    "cv2",
+    "rawpy",
+    "OpenEXR",
+    "openpyxl",
+    "pyarrow",
+    "h5py",
+    "zarr",
+)  # with one of them other files can be read
 DIGITS = 20  # of the number, where a person sees it
 
 

@@ -98,13 +98,13 @@ def expanded(words: Iterable[str], include: tuple[str, ...], recurse: bool, is_o
     words, labels, passed_over = list(words), [], 0
     for word in words:
         found, why = [word], ""
-        if os.path.isdir(word):
+        if opening.is_folder(word):
             found, others = _of_folder(Path(word), include, recurse, is_ours)
             passed_over += others
             what = f"no file like {' or '.join(include)}" if include else "no file of a format that can be read"
             why = f"found {what}" + ("" if recurse else "; --recurse looks into its folders too")
         elif not opening.exists(word) and glob.has_magic(word):
-            found = sorted(each for each in glob.glob(word, recursive=True) if not os.path.isdir(each))
+            found = sorted(each for each in glob.glob(word, recursive=True) if not opening.is_folder(each))
             why = "no file has such a name"
         if not found and len(words) == 1:
             raise InputError(f"{word}: {why}")
@@ -116,8 +116,9 @@ def _of_folder(folder: Path, include, recurse: bool, is_ours) -> tuple[list[str]
     """A folder's files, and how many of them nothing here reads."""
     found, others = [], 0
     for place, folders, names in os.walk(folder):
-        folders[:] = sorted(each for each in folders if recurse and not each.startswith("."))
-        for name in sorted(names):
+        arrays = [each for each in folders if opening.is_array_folder(os.path.join(place, each))]
+        folders[:] = sorted(each for each in folders if recurse and not each.startswith(".") and each not in arrays)
+        for name in sorted(names + arrays):
             path = Path(place, name)
             if name.startswith(".") or not opening.is_plain(path):
                 continue

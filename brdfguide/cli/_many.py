@@ -1,6 +1,5 @@
 """Options about many surfaces, shared by the commands that answer them."""
 
-import os
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -81,7 +80,9 @@ class Many:
 
     def is_several(self, words: list[str]) -> bool:
         """Whether there may be more than one: a list, several names, a folder or a pattern."""
-        return bool(self.files_from) or len(words) != 1 or os.path.isdir(words[0]) or self._is_pattern(words[0])
+        from ..opening import is_folder
+
+        return bool(self.files_from) or len(words) != 1 or is_folder(words[0]) or self._is_pattern(words[0])
 
     @staticmethod
     def _is_pattern(word: str) -> bool:
@@ -101,6 +102,7 @@ class Many:
         """Every name that is meant, those of this shard alone; of folders what `is_ours`, or else what some format
         claims. Raises InputError for options that could do nothing."""
         from ..batch.listing import expanded, from_list
+        from ..opening import is_folder
         from ._options import remark
 
         if self.files_from is None:
@@ -110,7 +112,7 @@ class Many:
             if self.files_from == "-" and "-" in words:
                 raise InputError("standard input cannot be the list and a file of it")
             listed = from_list(self.files_from, self.null)
-        folders = any(map(os.path.isdir, (*words, *listed)))
+        folders = any(map(is_folder, (*words, *listed)))
         if not folders:
             refuse(context, "include", "recurse", because="they are of folders, and none is named")
         include = tuple(filter(None, (each.strip() for each in (self.include or "").split(","))))

@@ -227,8 +227,8 @@ def _formats() -> str:
     text = (
         "What a file contains decides, not its suffix. Any of them may be compressed (gzip, bzip2, xz, of several "
         "members), or come from standard input. `convert FILE OUT --to NAME` writes measured values, `export SURFACE "
-        "--to NAME -o OUT` a model as a table. Excel needs the extra `excel`, Parquet the extra `parquet`. A file of "
-        "another kind is named from its first bytes, with what to export instead.\n"
+        "--to NAME -o OUT` a model as a table. Excel needs the extra `excel`, Parquet `parquet`, HDF5 `hdf5`, zarr "
+        "`zarr`. A file of another kind is named from its first bytes, with what to export instead.\n"
     )
     return _table("Formats", ("format", "what it is", "usual suffixes", "written by"), rows) + "\n" + text
 

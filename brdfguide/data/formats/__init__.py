@@ -83,8 +83,9 @@ def in_blocks(path, *, wavelength=None, in_plane: bool = False, theta_max: float
         head = stream.read(HEAD)
         known = next((each for each in members() if each.parts and each.recognises(head)), None)
         if known is not None:
-            source = Source(str(path), _open.mapped_content(path, stream, head, known), _behind(stream))
-            return _in_parts(known, source, asked, selection)
+            return _in_parts(
+                known, _open.source_of(path, stream, head, known, str(path), mapped=True), asked, selection
+            )
     if os.path.getsize(path) <= LARGEST_TABLE:
         return None
     format = recognised(head, str(path))
@@ -147,10 +148,9 @@ def opened(path) -> tuple[Format, Source]:
         head = stream.read(HEAD)
         if (known := _of_its_size(stream, head)) is not None:
             format, data = known
-            return format, Source(name, data, _behind(stream))
+            return format, Source(name, data, _open.behind(stream))
         format = recognised(head, name)
-        data = _open.whole_content(stream, head, format.limit, name, swells=format.whole_table)
-        return format, Source(name, data, _behind(stream))
+        return format, _open.source_of(path, stream, head, format, name)
 
 
 def _of_its_size(stream, head: bytes) -> tuple[Format, bytearray] | None:
@@ -166,14 +166,6 @@ def _of_its_size(stream, head: bytes) -> tuple[Format, bytearray] | None:
         data += piece
     found = next((each for each in every if each.exact_bytes == len(data)), None)
     return None if found is None else (found, data)
-
-
-def _behind(stream) -> tuple[Finding, ...]:
-    """The note on bytes that follow a compressed file's last member."""
-    if not stream.behind:
-        return ()
-    text = f"{stream.behind} bytes behind the {stream.kind} content belong to none and were left out"
-    return (Finding("bytes-behind", text, "warning", numbers=(("bytes", stream.behind),)),)
 
 
 def is_readable(path) -> bool:

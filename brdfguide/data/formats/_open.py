@@ -3,11 +3,13 @@
 import sys
 from contextlib import contextmanager
 from mmap import ACCESS_READ, mmap
+from pathlib import Path
 from typing import Any
 
 from ... import opening
 from ...errors import InputError
-from .format import Format
+from ...finding import Finding
+from .format import Format, Source
 
 MAGIC = {b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"BZh": "bzip2"}
 PIECE = 2**20  # bytes of content read at once
@@ -48,6 +50,27 @@ def whole_content(stream, head: bytes, limit: int, name: str, swells: bool = Fal
                 f"{name}: unpacks to more than {HONEST_SWELLING} times its size, which no measurement does"
             )
     return content
+
+
+def source_of(path, stream, head: bytes, format: Format, name: str, *, mapped: bool = False) -> Source:
+    """The content of a file, mapped to memory where that is asked for; of a folder that is one, where it lies.
+
+    Raises InputError as `whole_content`.
+    """
+    if not isinstance(path, opening.Held) and opening.is_array_folder(path):
+        return Source(name, b"", folder=Path(path))
+    if mapped:
+        return Source(name, mapped_content(path, stream, head, format), behind(stream))
+    data = whole_content(stream, head, format.limit, name, swells=format.whole_table)
+    return Source(name, data, behind(stream))
+
+
+def behind(stream) -> tuple[Finding, ...]:
+    """The note on bytes that follow a compressed file's last member."""
+    if not stream.behind:
+        return ()
+    text = f"{stream.behind} bytes behind the {stream.kind} content belong to none and were left out"
+    return (Finding("bytes-behind", text, "warning", numbers=(("bytes", stream.behind),)),)
 
 
 def mapped_content(path, stream, head: bytes, format: Format) -> Any:

@@ -1,8 +1,12 @@
 """Sheets whose cells come from a library, as numbers under names, for the reader of tables of text."""
 
+from contextlib import contextmanager
 from importlib import import_module
 
+import numpy as np
+
 from ...errors import InputError
+from ._sheet import Sheet
 from .format import Source
 
 
@@ -13,6 +17,45 @@ def library(name: str, extra: str, source: Source, what: str):
     except ImportError:
         text = f"reading {what} needs the package {name}: pip install 'brdfguide[{extra}]', or save it as CSV"
         raise InputError(f"{source.name}: {text}") from None
+
+
+@contextmanager
+def damage_told(source: Source, what: str):
+    """A library's own errors about a file, which are of these, as a sentence."""
+    try:
+        yield
+    except InputError:
+        raise
+    except (OSError, ValueError, ArithmeticError, LookupError, TypeError, RuntimeError, AttributeError) as error:
+        raise source.error(f"a damaged {what}: {' '.join(str(error).split())[:100]}") from None
+
+
+def sheet_of_columns(source: Source, names: list[str], columns, first: int, comments: tuple[str, ...] = ()) -> Sheet:
+    """Columns as those of a table whose first row has this number: arrays of numbers, or lists of cells with None where
+    there is none.
+
+    Raises InputError for cells that hold further cells.
+    """
+    values, texts = np.full((len(columns[0]), len(columns)), np.nan), {}
+    for place, cells in enumerate(columns):
+        if isinstance(cells, np.ndarray) and cells.dtype.kind in "fiub":
+            values[:, place] = cells
+            continue
+        if any(isinstance(cell, (dict, list, tuple, bytes)) for cell in cells):
+            raise source.error(f"the column '{names[place][:40]}' holds no plain numbers or words")
+        values[:, place] = [float(cell) if isinstance(cell, (int, float)) else np.nan for cell in cells]
+        if any(cell is not None and not isinstance(cell, (int, float)) for cell in cells):
+            texts[place] = ["" if cell is None else str(cell) for cell in cells]
+            values[:, place] = [_number(cell) for cell in texts[place]]
+    lines = np.arange(first, first + len(values))
+    return Sheet(names, values, lines, list(comments), [], texts=texts)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")
 
 
 def as_text(source: Source, rows) -> Source:

@@ -48,6 +48,7 @@ class Source:
     name: str
     data: bytes | bytearray  # or a file mapped to memory, of formats that are read in parts
     findings: tuple[Finding, ...] = ()  # about the file as such
+    folder: Path | None = None  # a folder that is one file of arrays, and has no bytes by itself
 
     @cached_property
     def text(self) -> str:

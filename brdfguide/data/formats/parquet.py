@@ -1,21 +1,19 @@
 """Apache Parquet: columns read as those of a table of text are. Needs pyarrow."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
-
-import numpy as np
 
 from ...errors import NothingLeft
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
-from ._tables import library
+from ._tables import damage_told, library, sheet_of_columns
 from .format import Format, Options, Source
 
 MOST_CELLS = 50_000_000
 LARGEST_CELLS = 8_000_000  # beyond, a fit reads it in pieces
 TOGETHER = 65_536  # rows of a piece
 KIND = "Parquet table"
+FILE = "Parquet file"
 NUMBERS = ("double", "float", *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)))
 
 
@@ -36,7 +34,7 @@ def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
 
 def is_large(source: Source) -> bool:
     """Whether it is read row group by row group. Raises InputError for a damaged file."""
-    with _damage_told(source):
+    with damage_told(source, FILE):
         about = _opened(source).metadata
         return about.num_rows * about.num_columns > LARGEST_CELLS
 
@@ -44,14 +42,15 @@ def is_large(source: Source) -> bool:
 def parts(source: Source, options: Options) -> Iterator[Measurement]:
     """The same as `read` gives, in pieces of so many rows. Raises InputError as `read`."""
     first = 1
-    with _damage_told(source):
+    with damage_told(source, FILE):
         batches = _opened(source).iter_batches(batch_size=TOGETHER)
     while True:
-        with _damage_told(source):
+        with damage_told(source, FILE):
             batch = next(batches, None)
+            columns = [] if batch is None else [_cells(column) for column in batch.columns]
         if batch is None:
             return
-        sheet = _sheet_of(source, list(map(str, batch.schema.names)), batch.columns, first)
+        sheet = sheet_of_columns(source, list(map(str, batch.schema.names)), columns, first)
         first += batch.num_rows
         try:
             yield _meaning.measurement_of(source, sheet, options, kind=KIND)
@@ -65,17 +64,8 @@ def _opened(source: Source):
     return parquet.ParquetFile(pyarrow.BufferReader(pyarrow.py_buffer(source.data)))
 
 
-@contextmanager
-def _damage_told(source: Source):
-    """Arrow's own errors, which are of these, as a sentence."""
-    try:
-        yield
-    except (OSError, ValueError, ArithmeticError, KeyError, TypeError) as error:
-        raise source.error(f"a damaged Parquet file: {str(error)[:100]}") from None
-
-
 def _sheet(source: Source) -> Sheet:
-    with _damage_told(source):
+    with damage_told(source, FILE):
         file = _opened(source)
         rows, columns = file.metadata.num_rows, len(file.schema_arrow)
         if rows * columns > MOST_CELLS:
@@ -85,32 +75,16 @@ def _sheet(source: Source) -> Sheet:
         raise source.error("there is no row in it")
     if any(len(column) != rows for column in table.columns):
         raise source.error(f"a damaged Parquet file: not every column holds the {rows} rows that it promises")
-    return _sheet_of(source, list(map(str, table.column_names)), table.columns, 1)
+    with damage_told(source, FILE):
+        cells = [_cells(column) for column in table.columns]
+    return sheet_of_columns(source, list(map(str, table.column_names)), cells, 1)
 
 
-def _sheet_of(source: Source, names: list[str], columns, first: int) -> Sheet:
-    """Columns of Arrow as those of a table whose first row has this number."""
-    values, texts = np.full((len(columns[0]), len(columns)), np.nan), {}
-    for place, column in enumerate(columns):
-        if str(column.type) in NUMBERS:
-            values[:, place] = column.to_numpy(zero_copy_only=False).astype(float)
-            continue
-        with _damage_told(source):
-            cells = column.to_pylist()
-        if any(isinstance(cell, (dict, list, tuple, bytes)) for cell in cells):
-            raise source.error(f"the column '{names[place][:40]}' holds no plain numbers or words")
-        values[:, place] = [float(cell) if isinstance(cell, (int, float)) else np.nan for cell in cells]
-        if any(cell is not None and not isinstance(cell, (int, float)) for cell in cells):
-            texts[place] = ["" if cell is None else str(cell) for cell in cells]
-            values[:, place] = [_number(cell) for cell in texts[place]]
-    return Sheet(names, values, np.arange(first, first + len(values)), [], [], texts=texts)
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return float("nan")
+def _cells(column):
+    """The numbers of a column of Arrow, or its cells."""
+    if str(column.type) in NUMBERS:
+        return column.to_numpy(zero_copy_only=False).astype(float)
+    return column.to_pylist()
 
 
 FORMAT = Format(

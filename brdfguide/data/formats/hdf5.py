@@ -1,0 +1,116 @@
+"""HDF5: a group of 1-D datasets named as columns, or a 2-D dataset whose attribute names them. Needs h5py.
+
+Links to other files and datasets that keep their numbers in some are refused.
+"""
+
+import io
+from collections.abc import Iterator
+from functools import partial
+
+from ..measurement import Measurement
+from . import _named_arrays
+from ._tables import damage_told, library
+from .format import Format, Options, Source
+
+KIND = "HDF5 table"
+MAGIC = b"\x89HDF\r\n\x1a\n"
+
+
+def recognises(head: bytes) -> bool:
+    return head.startswith(MAGIC)
+
+
+def read(source: Source, options: Options) -> Measurement:
+    """Raises InputError for a damaged file, for one without a table or with several, and as tables do."""
+    return _named_arrays.read_table(source, _tables(source), options)
+
+
+def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
+    """The values of a column, in the order in which they come. Raises InputError where they are no groups."""
+    return _named_arrays.groups_of(source, _tables(source), options, column)
+
+
+def is_large(source: Source) -> bool:
+    """Whether it is read in pieces. Raises InputError for a damaged file."""
+    return _named_arrays.is_large(_tables(source))
+
+
+def parts(source: Source, options: Options) -> Iterator[Measurement]:
+    """The same as `read` gives, in pieces. Raises InputError as `read`."""
+    return _named_arrays.parts_of(source, _tables(source), options)
+
+
+def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
+    h5py = library("h5py", "hdf5", source, "an HDF5 file")
+    with damage_told(source, KIND):
+        root = h5py.File(io.BufferedReader(_Bytes(source.data)), "r")
+    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), len(source.data))
+
+
+def _members(source: Source, h5py, group) -> dict:
+    """Datasets and groups by name, in the order in which they were made where the file says it."""
+    names = list(group)
+    if not group.id.get_create_plist().get_link_creation_order():
+        names = _named_arrays.in_order(names)
+    found = {}
+    for name in names:
+        if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+            raise source.error(f"'{name[:40]}' is a link to another place or file; wanted the data themselves")
+        node = group[name]
+        if isinstance(node, h5py.Dataset) and (node.is_virtual or node.external):
+            raise source.error(f"'{name[:40]}' keeps its numbers in other files; wanted them in this one")
+        if isinstance(node, h5py.Dataset) and h5py.check_string_dtype(node.dtype):
+            found[name] = _Words(node)
+        elif isinstance(node, (h5py.Dataset, h5py.Group)):
+            found[name] = node
+    return found
+
+
+class _Words:
+    """A dataset of words, whose cells are text."""
+
+    def __init__(self, dataset):
+        self.shape, self.attrs, self.chunks = dataset.shape, dataset.attrs, dataset.chunks
+        self.text = dataset.asstr("utf-8", "replace")
+
+    def __getitem__(self, rows: slice):
+        return self.text[rows]
+
+
+class _Bytes(io.RawIOBase):
+    """The content of a file, mapped to memory or held, as a stream that goes back and forth without a copy."""
+
+    def __init__(self, data):
+        self.data, self.at = memoryview(data), 0
+
+    def readable(self) -> bool:
+        return True
+
+    def seekable(self) -> bool:
+        return True
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
+        self.at = offset + (0, self.at, len(self.data))[whence]
+        return self.at
+
+    def tell(self) -> int:
+        return self.at
+
+    def readinto(self, into) -> int:
+        piece = self.data[self.at : self.at + len(into)]
+        into[: len(piece)] = piece
+        self.at += len(piece)
+        return len(piece)
+
+
+FORMAT = Format(
+    "hdf5",
+    (".h5", ".hdf5", ".nc"),
+    recognises,
+    read,
+    own_side=False,
+    groups=groups,
+    options=("columns", "unit", "select", "rotation_sense"),
+    parts=parts,
+    is_large=is_large,
+)
