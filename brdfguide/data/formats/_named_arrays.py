@@ -1,7 +1,7 @@
 """Tables in a file of named arrays: the 1-D arrays of a group as its columns, or a 2-D one whose columns it names.
 
 What HDF5 and zarr have in common: groups with arrays in them, and attributes of both. Attributes of a group are read
-as a text table's comments are, `units` of an array as the unit in its name; `_FillValue`, `scale_factor` and `add_offset` as
+as a text table's comments are, `units` of an array as the unit in its name; `_FillValue`, `scale_factor`, `add_offset` as
 the CF conventions have them.
 
 Source: Eaton and others, NetCDF Climate and Forecast (CF) Metadata Conventions 1.11, sections 2.5.1, 3.1 and 8.1.
