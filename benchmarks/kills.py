@@ -3,8 +3,8 @@
     python benchmarks/kills.py FILES SEED...           such as 300 1 2 3 4 5 6 7 8 9 10
 
 Made scans of a paper, one model; the seed says when, as a share of the answers, and which worker is killed (SIGKILL).
-A file is begun again where it was started twice, which is what `--events` tells of our own processes and what answers
-of a cluster's workers, written twice, would be: their folder is watched.
+A file is begun again where it was started twice: `--events` tells it of our own processes, and those that do the files
+on a cluster tell it themselves, each in a file of the folder of answers.
 """
 
 import json
@@ -70,13 +70,13 @@ def one(files: list[Path], seed: int, engine: list[str], workers) -> str:
         os.kill(victim, signal.SIGKILL)
         rows = run.stdout.read().splitlines()[1:]
         run.wait()
-        told = [json.loads(line) for line in events.read_text().splitlines()]
+        tales = list((fits / "events").glob("*.jsonl")) or [events]  # of those that did the files
+        told = [json.loads(line) for tale in tales for line in tale.read_text().splitlines()]
         started = [each["file"] for each in told if each["state"] == "started"]
         answered = sum(row.rstrip().endswith("answered") for row in rows)
-        again = str(len(started) - len(set(started))) if started else "not told"
         return (
-            f"seed {seed}: killed after {when} answers: {answered} of {len(files)} answered, begun again: {again}, "
-            f"exit {run.returncode}"
+            f"seed {seed}: killed after {when} answers: {answered} of {len(files)} answered, begun again: "
+            f"{len(started) - len(set(started))}, exit {run.returncode}"
         )
 
 

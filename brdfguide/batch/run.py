@@ -169,10 +169,19 @@ def _ended_row(task: Task, ended: Ended) -> FileRow:
 
 
 def one(task: Task) -> FileRow:
-    """Answers one task and keeps its answer; whatever goes wrong becomes a row."""
+    """Answers one task and keeps its answer; whatever goes wrong becomes a row.
+
+    One that is handed out again, since the process that had it was ended, may have its answer already.
+    """
     begun = time.monotonic()
-    row = _answered(task)
+    row = _just_answered(task) or _answered(task)
     return replace(row, seconds=round(time.monotonic() - begun, 4), peak_mb=peak_mb())
+
+
+def _just_answered(task: Task) -> FileRow | None:
+    """The row of an answer that was not there when the task was handed out."""
+    row = None if task.store is None else _before(task, Again(True, task.limits))
+    return row and replace(row, state=ANSWERED if row.state == BEFORE else row.state, from_before=False)
 
 
 def _answered(task: Task) -> FileRow:

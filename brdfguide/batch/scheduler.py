@@ -1,13 +1,21 @@
-"""Tasks done by a cluster that dask.distributed runs: its workers may be killed, and others do what they had."""
+"""Tasks done by a cluster that dask.distributed runs: its workers may be killed, and others do what they had.
+
+Small parts are handed out, not single tasks; what of a part was answered before its worker was killed is not answered
+again, since `do` looks whether it is.
+"""
 
 from collections.abc import Callable, Generator, Iterator
+from itertools import islice
+from pathlib import Path
 from typing import Any
 
 from ..errors import EngineLost, InputError
+from .far import Part, answer_part
 from .workers import Died, Done
 
 WAITED_S = 10.0  # for the scheduler
-AHEAD = 4  # tasks handed out for each of the cluster's threads
+AHEAD = 3  # parts handed out for each of the cluster's threads
+MOST = 4  # tasks of a part: to hand one over and back takes some 5 ms of processor time
 EXTRA = "--scheduler needs dask.distributed: pip install 'brdfguide[farm]'"
 
 
@@ -15,9 +23,12 @@ def by_scheduler(
     do: Callable[[Any], Any],
     tasks: Iterator[tuple[int, Any]],
     address: str,
+    of: int = 0,
     tell: Callable[[int, int], None] = lambda number, tries: None,
+    events: Path | None = None,
 ) -> Generator[tuple[int, Any]]:
-    """(number, do(task)) of each task as it is done, or a Died; `tell` hears of each that is handed out.
+    """(number, do(task)) of each of about `of` tasks as it is done, or a Died; `tell` hears of each that is handed out,
+    and in the folder `events` each process over there keeps a file of what it begins.
 
     Files, and the folder for answers, must have the same names on every machine. Raises InputError where the package is
     not there or the address is none, EngineLost where nobody answers, or no longer.
@@ -25,23 +36,25 @@ def by_scheduler(
     client, as_completed = _connected(address)
     try:
         running = as_completed(loop=client.loop)
-        numbers: dict[Any, int] = {}
-        more = True
+        numbers: dict[Any, list[int]] = {}
+        left, more = of, True
         while more or numbers:
-            while more and len(numbers) < AHEAD * max(1, sum(client.nthreads().values())):
-                number, task = next(tasks, (None, None))
-                if number is None:
-                    more = False
-                elif isinstance(task, Done):
-                    yield number, task.result
-                else:
-                    tell(number, 1)
-                    future = client.submit(do, task, pure=False)
-                    numbers[future] = number
+            threads = max(1, sum(client.nthreads().values()))
+            while more and len(numbers) < AHEAD * threads:
+                wanted = max(1, min(MOST, left // (AHEAD * threads)))
+                taken = list(islice(tasks, wanted))
+                more, left = len(taken) == wanted, left - len(taken)
+                yield from ((number, task.result) for number, task in taken if isinstance(task, Done))
+                part = {number: task for number, task in taken if not isinstance(task, Done)}
+                if part:
+                    for number in part:
+                        tell(number, 1)
+                    future = client.submit(answer_part, Part(do, list(part.values()), events), pure=False)
+                    numbers[future] = list(part)
                     running.add(future)
             if numbers:
                 future = next(running)
-                yield numbers.pop(future), _result(future, client, address)
+                yield from _results(future, numbers.pop(future), address)
     except (OSError, TimeoutError) as error:
         raise _lost(address, str(error)) from None
     finally:
@@ -62,15 +75,17 @@ def _connected(address: str):
         raise EngineLost(f"--scheduler {address}: nobody answers there within {WAITED_S:g} seconds") from None
 
 
-def _result(future, client, address: str):
-    """What became of a task."""
+def _results(future, numbers: list[int], address: str) -> Iterator[tuple[int, Any]]:
+    """What became of a part."""
     if future.status == "finished":
-        return future.result()
+        return zip(numbers, future.result(), strict=True)
     if future.status == "error":
         error = future.exception()
         if type(error).__name__ == "KilledWorker":
-            return Died("not done: every worker that had it was ended, perhaps for want of memory", 1)
-        return Died(f"not done: its worker says {type(error).__name__}: {error}", 1)
+            words = "every worker that had it was ended, perhaps for want of memory"
+        else:
+            words = f"its worker says {type(error).__name__}: {error}"
+        return ((number, Died(f"not done: {words}", 1)) for number in numbers)
     raise _lost(address, f"a task is {future.status}")
 
 

@@ -109,7 +109,8 @@ def _engine(many: Many, limits, tasks, events) -> "Engine":
     if many.scheduler:
         from ..batch.scheduler import by_scheduler
 
-        return partial(by_scheduler, address=many.scheduler, tell=started)
+        told = None if many.out is None or many.events is None else many.out / "events"
+        return partial(by_scheduler, address=many.scheduler, of=len(tasks), tell=started, events=told)
     if (many.jobs > 1 and len(tasks) > 1) or many.timeout or many.memory:
         from ..batch.workers import done
 
