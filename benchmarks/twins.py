@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from brdfguide.batch import collected, searching
+from brdfguide.batch import collected, conditions, searching
 from brdfguide.batch.run import Task, run_tasks
 from brdfguide.batch.store import store_at
 from brdfguide.batch.work import FitWork
@@ -61,7 +61,7 @@ def main(count: int, seed: int) -> None:
         )
         collected.collect_into(store, folder / "all.sqlite")
         with collected.opened(folder / "all.sqlite") as base:
-            found = {row["key"]: row for row in searching.matching(base, [])}
+            found = {row["key"]: row for row in conditions.matching(base, [], "doubt", "surface")}
             looks = searching.all_looks(base)
             names = {key: row["file"].partition(".")[0] for key, row in found.items()}
             first = 0

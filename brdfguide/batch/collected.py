@@ -10,27 +10,19 @@ A key is what an answer follows from, so that a row once there is right for ever
 takes out what is no more.
 """
 
-import json
+import os
 import sqlite3
+import time
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from ..errors import BrdfguideError, InputError
-from ..fitting import saved
-from ..fitting.appearance import lobe_width_deg
-from ..models.looks import lightness_shown, turns
-from ..models.surface import Surface
-from ..physics import fresnel, gloss, seen
-from ..physics.aperture import Instrument
 from .store import Store
 
 SCHEMA = "brdfguide/collected/1"
 INDEX = "collected.sqlite"  # in a folder of answers
-LOOKS = 12, 5, 5  # of `seen.sphere`: orders pairs as the full one does, see tests/batch/test_searching.py
+JUST_NOW_NS = 2 * 10**9
 COLUMNS = {
     "sha256": "TEXT",  # of the data
     "fingerprint": "TEXT",  # of the program
@@ -71,21 +63,55 @@ TABLES = (
 def collect_into(store: Store, path: Path) -> tuple[int, int]:
     """Brings a database up to the folder: how many answers it holds, and how many of them are new.
 
-    Raises InputError where the file is no such database or cannot be written.
+    What lies in folders that nobody wrote in since is not looked at. Raises InputError where the file is no such
+    database or cannot be written.
     """
     with opened(path, make=True) as base, base:
-        there = {path.stem: path for path in store.folder.glob("answers/*/*.json")}
-        known = {key for (key,) in base.execute("SELECT key FROM fit")}
-        for key in known - there.keys():
-            _forget(base, key)
+        base.execute("CREATE TABLE IF NOT EXISTS stamp(folder TEXT PRIMARY KEY, ns INTEGER)")
+        known = dict(base.execute("SELECT folder, ns FROM stamp"))
+        stamps: dict[str, int | None] = {}
         new = 0
-        for key in sorted(there.keys() - known):
-            document = store.read(key, "brdfguide/fit/1")
-            if document is not None:
-                new += _add(base, key, document)
-        _rest(base, store)
+        for kind, bring in (("answers", _bring_answers), ("names", _bring_names), ("failed", _bring_failures)):
+            found = _stamps(store.folder / kind)
+            before = {folder: ns for folder, ns in known.items() if Path(folder).parent.name == kind}
+            if found != before or None in found.values():
+                new += bring(base, store)
+            stamps |= found
+        if stamps != known:
+            base.execute("DELETE FROM stamp")
+            base.executemany("INSERT INTO stamp VALUES (?, ?)", stamps.items())
         (count,) = base.execute("SELECT count(*) FROM fit").fetchone()
     return count, new
+
+
+def _stamps(folder: Path) -> dict[str, int | None]:
+    """When something was last written in each folder inside a folder; None where that was a moment ago.
+
+    A clock has steps, and more may be written within one.
+    """
+    with suppress(OSError), os.scandir(folder) as inside:
+        each = {os.path.abspath(entry.path): entry.stat().st_mtime_ns for entry in inside}
+        return {path: ns if time.time_ns() - ns > JUST_NOW_NS else None for path, ns in each.items()}
+    return {}
+
+
+def _bring_answers(base: sqlite3.Connection, store: Store) -> int:
+    """Answers that are new, and products; how many."""
+    there = {path.stem: path for path in store.folder.glob("answers/*/*.json")}
+    known = {key for (key,) in base.execute("SELECT key FROM fit")}
+    for key in known - there.keys():
+        _forget(base, key)
+    new = 0
+    for key in sorted(there.keys() - known):
+        document = store.read(key, "brdfguide/fit/1")
+        if document is not None:
+            new += _add(base, key, document)
+    base.execute("DELETE FROM product")
+    for path in store.folder.glob("answers/*/*"):
+        key, _, kind = path.name.partition(".")
+        if kind != "json" and not key.startswith("."):
+            base.execute("INSERT INTO product VALUES (?, ?, ?)", (key, kind, _utf8(str(path))))
+    return new
 
 
 @contextmanager
@@ -125,20 +151,20 @@ def _forget(base: sqlite3.Connection, key: str) -> None:
         base.execute(f"DELETE FROM {table} WHERE key = ?", (key,))
 
 
-def _rest(base: sqlite3.Connection, store: Store) -> None:
-    """Names, failures and products, which change from run to run."""
-    for table in ("name", "failure", "product"):
-        base.execute(f"DELETE FROM {table}")
+def _bring_names(base: sqlite3.Connection, store: Store) -> int:
+    base.execute("DELETE FROM name")
     base.executemany("INSERT INTO name VALUES (?, ?)", ((_utf8(file), key) for file, key in store.names()))
+    return 0
+
+
+def _bring_failures(base: sqlite3.Connection, store: Store) -> int:
+    base.execute("DELETE FROM failure")
     for path in store.folder.glob("failed/*/*.json"):
         found = store.failure(path.stem)
         if found is not None:
             row = (path.stem, _utf8(str(found.get("file"))), found["state"], _utf8(found["error"]), found.get("tries"))
             base.execute("INSERT OR REPLACE INTO failure VALUES (?, ?, ?, ?, ?)", row)
-    for path in store.folder.glob("answers/*/*"):
-        key, _, kind = path.name.partition(".")
-        if kind != "json" and not key.startswith("."):
-            base.execute("INSERT INTO product VALUES (?, ?, ?)", (key, kind, _utf8(str(path))))
+    return 0
 
 
 def _utf8(text: str) -> str:
@@ -148,6 +174,8 @@ def _utf8(text: str) -> str:
 
 def _add(base: sqlite3.Connection, key: str, document: dict) -> bool:
     """Whether the answer could be read."""
+    from .described_rows import described_row  # models and figures, which a search by words needs nothing of
+
     try:
         row, vector = described_row(document)
     except (BrdfguideError, KeyError, TypeError, ValueError):
@@ -168,113 +196,16 @@ def _add(base: sqlite3.Connection, key: str, document: dict) -> bool:
 
 def _parameters(key: str, entry: dict, channels: list[str]) -> Iterator[tuple]:
     for name, value in entry["parameters"].items():
-        values, errors = _listed(value["value"]), _listed(value["stderr"])
+        values, errors = listed(value["value"]), listed(value["stderr"])
         for place, each in enumerate(values):
             channel = channels[place] if len(values) == len(channels) else ""
             error = errors[place] if place < len(errors) else None
             yield key, entry["candidate"], name, channel, each, error, value["unit"], value["at_bound"]
 
 
-def _listed(value) -> list:
+def listed(value) -> list:
+    """A number, or one for each channel, as a list."""
     return value if isinstance(value, list) else [value]
-
-
-def described_row(document: dict) -> tuple[dict[str, Any], np.ndarray]:
-    """A row of `fit` for an answer, and how it looks: (directions, colours) [L*], float32.
-
-    Raises InputError, KeyError where the document is damaged.
-    """
-    best = next(each for each in document["ranking"] if each["candidate"] == document["recommended"])
-    small = _recommended_alone(document, best)
-    surface = saved.surface_in(json.dumps(small).encode(), "answer")
-    shown = look_vector(surface)
-    albedo = _albedo(best, surface)
-    kind, stored, nan = document.get("kind") or {}, document.get("stored") or {}, [None] * 3
-    glosses = [_finite(np.mean(gloss.units(surface.brdf, angle, quick=True))) for angle in gloss.ANGLES]
-    row = {
-        "sha256": (stored.get("data") or {}).get("sha256"),
-        "fingerprint": stored.get("fingerprint"),
-        "recommended": best["candidate"],
-        "tied": sum(bool(each["tied"]) for each in document["ranking"]),
-        "kind": kind.get("verdict"),
-        "rms_ln": best["rms_ln"],
-        "held_out": best["held_out_rms_ln"],
-        "behind": best["behind"],
-        "seen": best["seen"],
-        "flags": ",".join(each["code"] for each in best["flags"]),
-        "no_answer": document.get("no_answer"),
-        "samples": document["data"]["samples"],
-        "f0": _f0(best),
-        "albedo": None if albedo is None else float(np.mean(albedo)),
-        "alpha_equivalent": _alpha(best, surface),
-        "doubt": _doubt(surface, best, shown),
-        "turns": int(turns(surface)),
-        "surface": json.dumps(small),
-    }
-    row |= dict(zip(("albedo_r", "albedo_g", "albedo_b"), nan if albedo is None else albedo, strict=True))
-    return row | {f"gloss{angle}": units for angle, units in zip(gloss.ANGLES, glosses, strict=True)}, shown
-
-
-def _recommended_alone(document: dict, best: dict) -> dict:
-    """A fit's JSON that `export`, `evaluate` and `preview` take, with one row."""
-    data = {name: document["data"][name] for name in ("channels", "wavelength_nm", "solid_angle_sr")}
-    known = {name: {"value": value["value"]} for name, value in best["parameters"].items()}
-    row = {name: best[name] for name in ("model", "candidate", "freed")} | {"parameters": known}
-    return {"schema": "brdfguide/fit/1", "data": data, "ranking": [row], "recommended": best["candidate"]}
-
-
-def look_vector(surface: Surface) -> np.ndarray:
-    """How a surface looks at the directions of LOOKS: (directions, colours) [L*], float32."""
-    return lightness_shown(surface, Instrument(seen.sphere(LOOKS).geom)).astype(np.float32)
-
-
-def _doubt(surface: Surface, best: dict, shown: np.ndarray) -> float | None:
-    """How far the surface's look moves with one standard error of each parameter, taken as independent [L*]."""
-    weights, squares = seen.sphere(LOOKS).weights, 0.0
-    for name, value in best["parameters"].items():
-        if value["stderr"] is None or name not in surface.model.parameters:
-            continue
-        parameter = surface.model.parameters[name]
-        errors = np.array([each or 0.0 for each in _listed(value["stderr"])], float)
-        low, high = parameter.outside(parameter.least), parameter.outside(parameter.high)
-        moved = parameter.inside(np.clip(np.array(_listed(value["value"]), float) + errors, low, high))
-        changed = surface.with_value(name, moved if np.size(moved) > 1 else float(np.ravel(moved)[0]))
-        squares += seen.apart(look_vector(changed), shown, weights) ** 2
-    return _finite(np.sqrt(squares))
-
-
-def _albedo(best: dict, surface: Surface) -> list[float] | None:
-    """The body's, as red, green and blue."""
-    found = [value["value"] for name, value in best["parameters"].items() if name.rpartition(".")[2] == "albedo"]
-    if not found:
-        return None
-    each = np.broadcast_to(np.array(_listed(found[0]), float), (len(surface.channels),))
-    mixed = each @ seen.colours(surface.channels, surface.wavelengths)
-    return [float(value) for value in np.broadcast_to(mixed, (3,))]
-
-
-def _f0(best: dict) -> float | None:
-    """Reflectance of the lobe's surface at normal incidence, the mean over channels."""
-    values = {name.rpartition(".")[2].lower(): value["value"] for name, value in best["parameters"].items()}
-    if "f0" in values:
-        return _finite(np.mean(_listed(values["f0"])))
-    if "n" not in values:
-        return None
-    n, k = (np.array(_listed(values.get(name, 0.0)), float) for name in "nk")
-    return _finite(np.mean(fresnel.f0(n, k)))
-
-
-def _alpha(best: dict, surface: Surface) -> float | None:
-    """exp(-tan²θh/α²) has its half at tan θh = α √ln 2, and θr moves by 2 θh on either side."""
-    own = [value["value"] for name, value in best["parameters"].items() if name.rpartition(".")[2] == "alpha"]
-    if len(own) == 1:
-        return _finite(np.mean(own[0]))
-    width = lobe_width_deg(surface)
-    return None if width is None else float(np.tan(np.radians(width / 4)) / np.sqrt(np.log(2)))
-
-
-def _finite(value) -> float | None:
-    return float(value) if np.isfinite(value) else None
 
 
 FLAT = ["file", "key", *(name for name in COLUMNS if name != "surface")]

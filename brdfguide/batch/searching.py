@@ -1,105 +1,25 @@
-"""Surfaces found among many answers: by words and numbers, by how they look, by what looks the same.
+"""Surfaces found among many answers by how they look, and those that look the same.
 
 How far two of them lie apart is S, the rms difference in lightness of two spheres [L*] (`physics.seen`), under lamps
 all around, or over the directions that a scene asks for.
 """
 
 import sqlite3
-from re import fullmatch
 
 import numpy as np
 
-from ..errors import InputError, choices
+from ..errors import InputError
 from ..models.surface import Surface
 from ..physics import seen
 from ..records import dataclass
 from ..scene.radiance import sample
 from ..scene.scene import Scene
-from .collected import COLUMNS, LOOKS, look_vector
+from .described_rows import LOOKS, look_vector
 
-NUMBERS = [name for name, kind in COLUMNS.items() if kind != "TEXT"]
-TEXTS = ("kind", "recommended", "flags", "file")
-SHOWN = ("file", "recommended", "kind", "gloss60", "albedo", "f0", "alpha_equivalent", "rms_ln")
-# 60-degree gloss by the levels of the Master Painters Institute: G3 and G4, eggshell and satin like, 10 to 35; G5,
-# semi-gloss, 35 to 70; G6, gloss, 70 to 85; G7, high gloss, above. Below 10 ISO 2813 reads at 85 degrees: matt.
-WORDS: dict[str, str] = {
-    "matt": "gloss60<10",
-    "satin": "gloss60=10..35",
-    "semi-gloss": "gloss60=35..70",
-    "gloss": "gloss60=70..85",
-    "high-gloss": "gloss60>85",
-    "metal": "kind=metal",
-    "dielectric": "kind=dielectric",
-    "trusted": "no_answer=",
-}
-ABOUT = 0.15  # of a number, on either side of one that is given with ~
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 PIXELS, SEED = 20000, 25  # of a scene, for where its directions lie
 NARROW = 0.01  # rad, of the lobe that a scene's directions are drawn for
 TENTH = 10  # the neighbour whose distance says how crowded the place is
 BLOCK = 512  # surfaces compared at once with all
-
-
-@dataclass(frozen=True)
-class Condition:
-    """One thing that is asked of a row."""
-
-    column: str
-    low: float = -np.inf
-    high: float = np.inf
-    text: str | None = None
-
-
-def conditions(query: str) -> list[Condition]:
-    """`kind=dielectric, gloss60=10..30, albedo~0.18, satin, file=*steel*` as conditions, all of which must hold.
-
-    Raises InputError for a word that is none, with those that there are.
-    """
-    found = []
-    for word in filter(None, (each.strip() for each in query.split(","))):
-        found.append(_condition(WORDS.get(word.lower().replace(" ", "-"), word), word))
-    return found
-
-
-def _condition(text: str, word: str) -> Condition:
-    matched = fullmatch(r"(\w+)\s*(=|~|<|>)\s*(.*)", text)
-    if not matched:
-        raise choices("word or NAME=VALUE", word, [*WORDS, *(f"{name}=" for name in (*TEXTS, *NUMBERS))])
-    column, sign, value = matched.groups()
-    if sign == "=" and (column in TEXTS or column == "no_answer"):
-        return Condition(column, text=value)
-    if column not in NUMBERS:
-        raise choices("number to search by", column, NUMBERS)
-    span = fullmatch(rf"({NUMBER})?\.\.({NUMBER})?", value)
-    if sign == "=" and span and (span[1] or span[2]):
-        return Condition(column, float(span[1] or -np.inf), float(span[2] or np.inf))
-    if not fullmatch(NUMBER, value):
-        raise InputError(f"{word}: wanted a number, or LOW..HIGH behind =")
-    number = float(value)
-    if sign in "<>":
-        return Condition(column, high=number) if sign == "<" else Condition(column, low=number)
-    margin = ABOUT * abs(number) if sign == "~" else 0.0
-    return Condition(column, number - margin, number + margin)
-
-
-def matching(base: sqlite3.Connection, asked: list[Condition]) -> list[dict]:
-    """The rows of which all holds, in the order of their files' names; one for each file."""
-    where: list[str] = ["1"]
-    values: list[str | float] = []
-    for each in asked:
-        if each.column == "no_answer":
-            where.append("fit.no_answer IS NULL")
-        elif each.text is not None:
-            name = "name.file" if each.column == "file" else f"fit.{each.column}"
-            where.append(f"{name} GLOB ?" if set("*?[") & set(each.text) else f"{name} = ?")
-            values.append(each.text)
-        else:
-            where.append(f"fit.{each.column} BETWEEN ? AND ?")
-            values += [max(each.low, -1e300), min(each.high, 1e300)]
-    names = ["key", *SHOWN, "flags", "no_answer", "doubt", "surface"]
-    columns = ", ".join("name.file" if name == "file" else f"fit.{name}" for name in names)
-    lines = f"SELECT {columns} FROM name JOIN fit USING (key) WHERE {' AND '.join(where)} ORDER BY file"
-    return [dict(zip(names, row, strict=True)) for row in base.execute(lines, values)]
 
 
 @dataclass(frozen=True, eq=False)

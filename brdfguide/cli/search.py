@@ -48,7 +48,7 @@ class SearchRequest:
 
 def search(request: SearchRequest) -> None:
     """Find surfaces among many answers: by words and numbers, by how they look, by what looks the same."""
-    from ..batch import collected, searching
+    from ..batch import collected, conditions
     from ..batch.store import known_store
 
     context, scene = request.context, request.scene
@@ -56,7 +56,7 @@ def search(request: SearchRequest) -> None:
         refuse(context, "scene", because="it says for which directions looks count; give --like or --alike")
     if request.like is not None:
         refuse(context, "alike", because="--like orders by one surface, --alike groups them all")
-    asked = searching.conditions(request.query or "")
+    asked = conditions.conditions(request.query or "")
     path = request.where
     if path.is_dir():
         store = known_store(path)
@@ -64,9 +64,12 @@ def search(request: SearchRequest) -> None:
         with working(f"collecting {path.name}", request.quiet):
             collected.collect_into(store, path)
     with collected.opened(path) as base:
-        rows = searching.matching(base, asked)
+        more = [*(["doubt"] if request.alike else []), *(["surface"] if request.sheet else [])]
+        rows = conditions.matching(base, asked, *more)
         total = base.execute("SELECT count(*) FROM name JOIN fit USING (key)").fetchone()[0]
         if request.alike:
+            from ..batch import searching
+
             with working(LOOKING, request.quiet):
                 looks = searching.all_looks(base, scene)  # type: ignore[arg-type]
                 groups = _groups(rows, looks)
@@ -74,6 +77,7 @@ def search(request: SearchRequest) -> None:
             return
         near = None
         if request.like is not None:
+            from ..batch import searching
             from ..face.surfaces import named_surface
 
             with working(LOOKING, request.quiet):
@@ -103,7 +107,7 @@ def _show(request: SearchRequest, rows: list[dict], near, total: int) -> None:
 
 
 def _entry(row: dict, near=None) -> dict:
-    from ..batch.searching import SHOWN
+    from ..batch.conditions import SHOWN
 
     return {name: row[name] for name in SHOWN} | ({} if near is None else {"seen_from": near.distance.get(row["key"])})
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brdfguide.batch import collected, searching, store
+from brdfguide.batch import collected, conditions, described_rows, searching, store
 from brdfguide.batch.run import run_tasks
 from brdfguide.errors import InputError
 from brdfguide.models.looks import looks
@@ -99,16 +99,16 @@ def test_the_row_of_an_answer_says_what_its_surface_is():
     surface = Surface.named(
         "lambertian+beckmann", {"albedo": [0.5, 0.25, 0.1], "beckmann.alpha": 0.2, "beckmann.n": 1.5}
     )
-    row, shown = collected.described_row(document(surface))
+    row, shown = described_rows.described_row(document(surface))
     assert row["f0"] == pytest.approx(0.04) and row["albedo_g"] == pytest.approx(0.25)
     assert row["alpha_equivalent"] == 0.2
     phong = Surface.named("lambertian+phong", {"albedo": 0.05, "phong.ks": 0.1, "phong.exponent": 200.0})
-    alpha = collected.described_row(document(phong))[0]["alpha_equivalent"]
+    alpha = described_rows.described_row(document(phong))[0]["alpha_equivalent"]
     assert alpha == pytest.approx(1 / np.sqrt(2 * 200), rel=0.15)  # cos(2 θh) to the power e is exp(-2 e θh²)
     for angle in gloss.ANGLES:
         body = gloss.DIFFUSE[angle] * np.mean([0.5, 0.25, 0.1])
         assert row[f"gloss{angle}"] == pytest.approx(gloss.facet_units(angle, 0.2, 1.5) + body, abs=0.03)
-    again = searching.look_vector(collected.saved.surface_in(row["surface"].encode(), "x"))
+    again = described_rows.look_vector(described_rows.saved.surface_in(row["surface"].encode(), "x"))
     assert np.array_equal(shown, again) and 0 < row["doubt"] < 2
 
 
@@ -118,8 +118,8 @@ def test_looks_order_pairs_as_the_whole_sphere_does():
     surfaces = [plastic(draw) for _ in range(400)]
     pairs = list(zip(surfaces[::2], surfaces[1::2], strict=True))
     full = np.array([looks(pair).apart(0, 1) for pair in pairs])
-    weights = seen.sphere(collected.LOOKS).weights
-    small = np.array([seen.apart(*map(searching.look_vector, pair), weights) for pair in pairs])
+    weights = seen.sphere(described_rows.LOOKS).weights
+    small = np.array([seen.apart(*map(described_rows.look_vector, pair), weights) for pair in pairs])
     assert np.median(np.abs(np.log(small / full))) < 0.06
     clear = np.log(full[:100] / full[100:])
     decided = np.abs(clear) > 0.2
@@ -140,8 +140,8 @@ def test_looks_order_pairs_as_the_whole_sphere_does():
 )
 def test_words_and_numbers_find_the_rows_of_which_they_hold(query, holds, many):
     with collected.opened(many[0]) as base:
-        every = searching.matching(base, [])
-        found = searching.matching(base, searching.conditions(query))
+        every = conditions.matching(base, [])
+        found = conditions.matching(base, conditions.conditions(query))
     assert [row["file"] for row in found] == [row["file"] for row in every if holds(row)] and len(every) == 60
 
 
@@ -156,7 +156,7 @@ def test_words_and_numbers_find_the_rows_of_which_they_hold(query, holds, many):
 )
 def test_what_cannot_be_searched_by_is_a_sentence(query, sentence):
     with pytest.raises(InputError, match=sentence):
-        searching.conditions(query)
+        conditions.conditions(query)
 
 
 def test_the_nearest_to_a_surface_is_itself_and_distances_are_those_of_compare(many):
@@ -176,8 +176,8 @@ def test_a_scene_counts_the_directions_that_it_asks_for(many):
     weights = searching.scene_weights(scene)
     assert np.count_nonzero(weights) == 1
     one, other = (Surface.named("lambertian+ggx", {"albedo": 0.5, "ggx.alpha": alpha}) for alpha in (0.1, 0.2))
-    shown = [searching.look_vector(each) for each in (one, other)]
-    everywhere = seen.apart(*shown, seen.sphere(collected.LOOKS).weights)
+    shown = [described_rows.look_vector(each) for each in (one, other)]
+    everywhere = seen.apart(*shown, seen.sphere(described_rows.LOOKS).weights)
     assert seen.apart(*shown, weights) < 0.2 * everywhere
 
 
@@ -188,7 +188,7 @@ def test_twins_are_grouped_and_strangers_are_not(tmp_path):
     twins = [each.with_value("ggx.alpha", float(each.values["ggx.alpha"]) + 0.001) for each in surfaces]
     path = database(tmp_path / "all.sqlite", [*surfaces, *twins])
     with collected.opened(path) as base:
-        rows_there = searching.matching(base, [])
+        rows_there = conditions.matching(base, [], "doubt")
         groups = searching.alike_groups(searching.all_looks(base), {row["key"]: row["doubt"] for row in rows_there})
     pairs = {tuple(sorted(int(key, 16) for key in group)) for group in groups}
     assert {(number, number + 60) for number in range(60)} <= pairs and len(pairs) == 60

@@ -1,0 +1,114 @@
+"""What an answer is as a row of a table: its recommended surface's numbers, and how it looks."""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from ..fitting import saved
+from ..fitting.appearance import lobe_width_deg
+from ..models.looks import lightness_shown, turns
+from ..models.surface import Surface
+from ..physics import fresnel, gloss, seen
+from ..physics.aperture import Instrument
+from .collected import listed
+
+LOOKS = 12, 5, 5  # of `seen.sphere`: orders pairs as the full one does, see tests/batch/test_searching.py
+
+
+def described_row(document: dict) -> tuple[dict[str, Any], np.ndarray]:
+    """A row of `fit` for an answer, and how it looks: (directions, colours) [L*], float32.
+
+    Raises InputError, KeyError where the document is damaged.
+    """
+    best = next(each for each in document["ranking"] if each["candidate"] == document["recommended"])
+    small = _recommended_alone(document, best)
+    surface = saved.surface_in(json.dumps(small).encode(), "answer")
+    shown = look_vector(surface)
+    albedo = _albedo(best, surface)
+    kind, stored, nan = document.get("kind") or {}, document.get("stored") or {}, [None] * 3
+    glosses = [_finite(np.mean(gloss.units(surface.brdf, angle, quick=True))) for angle in gloss.ANGLES]
+    row = {
+        "sha256": (stored.get("data") or {}).get("sha256"),
+        "fingerprint": stored.get("fingerprint"),
+        "recommended": best["candidate"],
+        "tied": sum(bool(each["tied"]) for each in document["ranking"]),
+        "kind": kind.get("verdict"),
+        "rms_ln": best["rms_ln"],
+        "held_out": best["held_out_rms_ln"],
+        "behind": best["behind"],
+        "seen": best["seen"],
+        "flags": ",".join(each["code"] for each in best["flags"]),
+        "no_answer": document.get("no_answer"),
+        "samples": document["data"]["samples"],
+        "f0": _f0(best),
+        "albedo": None if albedo is None else float(np.mean(albedo)),
+        "alpha_equivalent": _alpha(best, surface),
+        "doubt": _doubt(surface, best, shown),
+        "turns": int(turns(surface)),
+        "surface": json.dumps(small),
+    }
+    row |= dict(zip(("albedo_r", "albedo_g", "albedo_b"), nan if albedo is None else albedo, strict=True))
+    return row | {f"gloss{angle}": units for angle, units in zip(gloss.ANGLES, glosses, strict=True)}, shown
+
+
+def _recommended_alone(document: dict, best: dict) -> dict:
+    """A fit's JSON that `export`, `evaluate` and `preview` take, with one row."""
+    data = {name: document["data"][name] for name in ("channels", "wavelength_nm", "solid_angle_sr")}
+    known = {name: {"value": value["value"]} for name, value in best["parameters"].items()}
+    row = {name: best[name] for name in ("model", "candidate", "freed")} | {"parameters": known}
+    return {"schema": "brdfguide/fit/1", "data": data, "ranking": [row], "recommended": best["candidate"]}
+
+
+def look_vector(surface: Surface) -> np.ndarray:
+    """How a surface looks at the directions of LOOKS: (directions, colours) [L*], float32."""
+    return lightness_shown(surface, Instrument(seen.sphere(LOOKS).geom)).astype(np.float32)
+
+
+def _doubt(surface: Surface, best: dict, shown: np.ndarray) -> float | None:
+    """How far the surface's look moves with one standard error of each parameter, taken as independent [L*]."""
+    weights, squares = seen.sphere(LOOKS).weights, 0.0
+    for name, value in best["parameters"].items():
+        if value["stderr"] is None or name not in surface.model.parameters:
+            continue
+        parameter = surface.model.parameters[name]
+        errors = np.array([each or 0.0 for each in listed(value["stderr"])], float)
+        low, high = parameter.outside(parameter.least), parameter.outside(parameter.high)
+        moved = parameter.inside(np.clip(np.array(listed(value["value"]), float) + errors, low, high))
+        changed = surface.with_value(name, moved if np.size(moved) > 1 else float(np.ravel(moved)[0]))
+        squares += seen.apart(look_vector(changed), shown, weights) ** 2
+    return _finite(np.sqrt(squares))
+
+
+def _albedo(best: dict, surface: Surface) -> list[float] | None:
+    """The body's, as red, green and blue."""
+    found = [value["value"] for name, value in best["parameters"].items() if name.rpartition(".")[2] == "albedo"]
+    if not found:
+        return None
+    each = np.broadcast_to(np.array(listed(found[0]), float), (len(surface.channels),))
+    mixed = each @ seen.colours(surface.channels, surface.wavelengths)
+    return [float(value) for value in np.broadcast_to(mixed, (3,))]
+
+
+def _f0(best: dict) -> float | None:
+    """Reflectance of the lobe's surface at normal incidence, the mean over channels."""
+    values = {name.rpartition(".")[2].lower(): value["value"] for name, value in best["parameters"].items()}
+    if "f0" in values:
+        return _finite(np.mean(listed(values["f0"])))
+    if "n" not in values:
+        return None
+    n, k = (np.array(listed(values.get(name, 0.0)), float) for name in "nk")
+    return _finite(np.mean(fresnel.f0(n, k)))
+
+
+def _alpha(best: dict, surface: Surface) -> float | None:
+    """exp(-tan²θh/α²) has its half at tan θh = α √ln 2, and θr moves by 2 θh on either side."""
+    own = [value["value"] for name, value in best["parameters"].items() if name.rpartition(".")[2] == "alpha"]
+    if len(own) == 1:
+        return _finite(np.mean(own[0]))
+    width = lobe_width_deg(surface)
+    return None if width is None else float(np.tan(np.radians(width / 4)) / np.sqrt(np.log(2)))
+
+
+def _finite(value) -> float | None:
+    return float(value) if np.isfinite(value) else None
