@@ -148,7 +148,7 @@ def opened(path) -> tuple[Format, Source]:
         head = stream.read(HEAD)
         if (known := _of_its_size(stream, head)) is not None:
             format, data = known
-            return format, Source(name, data, _open.behind(stream))
+            return format, Source(name, data, _open.left_behind(stream))
         format = recognised(head, name)
         return format, _open.source_of(path, stream, head, format, name)
 

@@ -1,8 +1,8 @@
 """Tables in a file of named arrays: the 1-D arrays of a group as its columns, or a 2-D one whose columns it names.
 
 What HDF5 and zarr have in common: groups with arrays in them, and attributes of both. Attributes of a group are read
-as a text table's comments are, `units` of an array as the unit in its name; `_FillValue`, `scale_factor`, `add_offset` as
-the CF conventions have them.
+as a text table's comments are, `units` of an array as the unit in its name; `_FillValue`, `scale_factor` and
+`add_offset` as the CF conventions have them.
 
 Source: Eaton and others, NetCDF Climate and Forecast (CF) Metadata Conventions 1.11, sections 2.5.1, 3.1 and 8.1.
 """
@@ -214,7 +214,7 @@ def _chunk(array) -> int:
     return min(max(int((getattr(array, "chunks", None) or (1,))[0]), 1), int(array.shape[0]) or 1)
 
 
-def in_order(names) -> list[str]:
+def sorted_names(names) -> list[str]:
     """Names that a file keeps in no order: R, G, B as such, numbers by their size."""
 
     def place(name: str):

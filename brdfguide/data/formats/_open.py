@@ -60,12 +60,12 @@ def source_of(path, stream, head: bytes, format: Format, name: str, *, mapped: b
     if not isinstance(path, opening.Held) and opening.is_array_folder(path):
         return Source(name, b"", folder=Path(path))
     if mapped:
-        return Source(name, mapped_content(path, stream, head, format), behind(stream))
+        return Source(name, mapped_content(path, stream, head, format), left_behind(stream))
     data = whole_content(stream, head, format.limit, name, swells=format.whole_table)
-    return Source(name, data, behind(stream))
+    return Source(name, data, left_behind(stream))
 
 
-def behind(stream) -> tuple[Finding, ...]:
+def left_behind(stream) -> tuple[Finding, ...]:
     """The note on bytes that follow a compressed file's last member."""
     if not stream.behind:
         return ()

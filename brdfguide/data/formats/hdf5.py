@@ -51,7 +51,7 @@ def _members(source: Source, h5py, group) -> dict:
     """Datasets and groups by name, in the order in which they were made where the file says it."""
     names = list(group)
     if not group.id.get_create_plist().get_link_creation_order():
-        names = _named_arrays.in_order(names)
+        names = _named_arrays.sorted_names(names)
     found = {}
     for name in names:
         if not isinstance(group.get(name, getlink=True), h5py.HardLink):

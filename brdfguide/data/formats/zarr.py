@@ -47,7 +47,7 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
 
 def _members(group) -> dict:
     found = dict(group.members())
-    return {name: found[name] for name in _named_arrays.in_order(found)}
+    return {name: found[name] for name in _named_arrays.sorted_names(found)}
 
 
 FORMAT = Format(

@@ -122,7 +122,7 @@ def test_the_answer_is_that_of_the_same_numbers_as_text(layout, made, tmp_path, 
 
 def test_columns_come_in_an_order_of_their_own(made):
     names = ["400nm", "1000nm", "phi_i", "theta_i", "R", "G", "B"]
-    assert _named_arrays.in_order(sorted(names)) == names
+    assert _named_arrays.sorted_names(sorted(names)) == names
     path = filled(made).done()
     assert formats.read(path).channels == ("R", "G", "B")
 
