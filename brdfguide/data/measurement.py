@@ -8,12 +8,14 @@ import numpy as np
 from ..finding import Finding
 from ..formed import KeepsFormed, formed
 from ..physics.aperture import Instrument
+from ..physics.directions import rows_taken
 from ..physics.geometry import Directions, Geometry
 from ..records import dataclass
 from .noise_model import NoiseModel
 from .otherwise import Otherwise
 
 LARGEST = 1e100  # 1/sr, and its inverse the least: beyond is no measurement
+FEW = 10_000  # values, beyond which short numbers sort sooner
 MOST_HELD = 120  # distinct incidence angles; with more, none was held
 
 
@@ -136,11 +138,12 @@ class Measurement(KeepsFormed):
     def __getitem__(self, rows) -> "Measurement":
         """The same for some of the rows: a slice, mask or list of row numbers."""
 
-        def pick(values):
-            return None if values is None else values[rows]
-
-        otherwise = tuple(each[rows] for each in self.otherwise)
-        return replace(self, geom=self.geom[rows], brdf=self.brdf[rows], stderr=pick(self.stderr), otherwise=otherwise)
+        if isinstance(rows, np.ndarray) and rows.dtype == bool:
+            rows = np.flatnonzero(rows)
+        picked = rows_taken(rows)
+        stderr, otherwise = self.stderr, tuple(each[rows] for each in self.otherwise)
+        stderr = None if stderr is None else picked(stderr)
+        return replace(self, geom=self.geom[rows], brdf=picked(self.brdf), stderr=stderr, otherwise=otherwise)
 
     def of_channels(self, picked) -> "Measurement":
         """The same for some of the channels, by their numbers."""
@@ -186,6 +189,9 @@ def _theta_i_groups(to: Directions) -> dict[float, np.ndarray]:
 
 def row_median(values) -> np.ndarray:
     """(samples,): median over channels that have a value, NaN where none has; NumPy's own takes ten times as long."""
+    if values.shape[1] == 3 and not np.isnan(values.sum()):
+        first, second, third = values.T
+        return np.maximum(np.minimum(first, second), np.minimum(np.maximum(first, second), third))
     ascending, known = np.sort(values, axis=1), np.count_nonzero(~np.isnan(values), axis=1)  # NaN last
     middle = np.stack([np.maximum(known - 1, 0) // 2, np.minimum(known // 2, values.shape[1] - 1)], axis=1)
     return np.take_along_axis(ascending, middle, axis=1).mean(axis=1)
@@ -196,9 +202,17 @@ def rows_by_tenth(angles) -> dict[float, np.ndarray]:
     return rows_of_each(np.round(angles, 1))
 
 
+def _as_short(values) -> np.ndarray:
+    """Tenths of degrees as small whole numbers, which sort in a tenth of the time; others as they are."""
+    tenths = np.rint(values * 10) if len(values) > FEW else values
+    if len(values) <= FEW or not np.all((tenths >= 0) & (tenths < 2**16)) or np.any(tenths / 10 != values):
+        return values
+    return tenths.astype(np.uint16)
+
+
 def rows_of_each(values) -> dict[float, np.ndarray]:
     """Value -> the rows that have it, both in ascending order."""
-    order = np.argsort(values, kind="stable")
+    order = np.argsort(_as_short(values), kind="stable")
     values = values[order]
     starts = np.flatnonzero(np.r_[True, values[1:] != values[:-1]])
     return {

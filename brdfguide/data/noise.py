@@ -96,9 +96,9 @@ def _against_neighbours(measurement: Measurement):
     incidence are compared, or each with a parabola through its neighbours. In a dense table neighbours stand beside
     each other in the file. Departures are those of ln f times f; where a value is not positive, those of f.
     """
+    if len(measurement.brdf) > DENSE:
+        return _in_file_order(measurement.ln)
     values, ln = measurement.readings, measurement.ln
-    if len(ln) > DENSE:
-        return _in_file_order(ln)
     found = [each for rows, angle in _scans(measurement.geom) for each in _departures(rows, angle, values, ln)]
     if sum(len(each[0]) for each in found) < 40:
         found += _mirrored(measurement, values, ln)
@@ -156,7 +156,10 @@ def detector_floor(measurement: Measurement) -> float:
     lies there is the detector's."""
     found = 0.0
     for values, usable in zip(measurement.brdf.T, measurement.usable.T, strict=True):
-        dim = np.sort(values[usable])
+        dim = values[usable]
+        if np.count_nonzero(np.pi * dim < BLACKEST) < int(PLATEAU * len(dim)):
+            continue
+        dim.sort()
         lowest = dim[: int(PLATEAU * len(dim))]
         if len(lowest) < LEAST_PLATEAU:
             continue

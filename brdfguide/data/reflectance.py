@@ -75,18 +75,16 @@ def _of_half_difference_cells(measurement: Measurement) -> Reflectance | None:
     """
     geom = measurement.geom
     channel = int(np.argmax(np.sum(np.where(measurement.usable, measurement.brdf, 0.0), axis=0)))
-    good = measurement.usable[:, channel] & (geom.theta_r_deg[:, 0] < 80.5)
-    theta_h = np.arctan(np.sqrt(geom.tan2_h[good, 0]))
-    cos_d = np.minimum(geom.cos_d[good, 0], 1.0)
-    weight = geom.cos_r[good, 0] * np.sin(theta_h) * np.sqrt(theta_h) * np.sqrt(1 - cos_d**2) * cos_d
-    theta_i, value = geom.theta_i_deg[good, 0], measurement.brdf[good, channel]
-    found = {}
+    good = np.flatnonzero(measurement.usable[:, channel] & (geom.theta_r_deg[:, 0] < 80.5))
+    theta_i, found = geom.theta_i_deg[good, 0], {}
     for angle in range(10, 80, 10):
-        band = np.abs(theta_i - angle) < 1.5
-        if np.count_nonzero(band) > 500:
-            found[float(angle)] = float(
-                np.pi * np.sin(np.radians(80)) ** 2 * np.average(value[band], weights=weight[band])
-            )
+        band = good[np.abs(theta_i - angle) < 1.5]
+        if len(band) > 500:
+            part = geom[band]
+            theta_h, cos_d = np.arctan(np.sqrt(part.tan2_h)), np.minimum(part.cos_d, 1.0)
+            weight = part.cos_r * np.sin(theta_h) * np.sqrt(theta_h) * np.sqrt(1 - cos_d**2) * cos_d
+            mean = np.average(measurement.brdf[band, channel], weights=weight[:, 0])
+            found[float(angle)] = float(np.pi * np.sin(np.radians(80)) ** 2 * mean)
     return (
         Reflectance(tuple(found), tuple(found.values()), tuple(found.values()), 80.0, "hemisphere") if found else None
     )

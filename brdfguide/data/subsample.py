@@ -13,6 +13,7 @@ from .turning import turn_of_each
 THETA_I_BANDS = 16
 TILT_BANDS = 24
 AZIMUTH_BANDS = 16
+FEW = 50_000  # values, beyond which their edges are found sooner than their order
 
 
 def subset(measurement: Measurement, count: int = 4000, seed: int = 0) -> Measurement:
@@ -62,11 +63,23 @@ def _by_stratum(geom: Directions) -> np.ndarray:
     tilt = np.where(incidence % 2, TILT_BANDS - 1 - tilt, tilt)
     azimuth = np.where((incidence * TILT_BANDS + tilt) % 2, AZIMUTH_BANDS - 1 - azimuth, azimuth)
     stratum, turns = (incidence * TILT_BANDS + tilt) * AZIMUTH_BANDS + azimuth, turn_of_each(geom)
-    return np.argsort(stratum, kind="stable") if turns is None else np.lexsort((turns, stratum))
+    # short numbers sort in a tenth of the time
+    return np.argsort(stratum.astype(np.uint16), kind="stable") if turns is None else np.lexsort((turns, stratum))
 
 
 def _bands(values, number: int) -> np.ndarray:
-    """0..number-1: bands that hold equally many."""
-    bands = np.empty(len(values), np.int64)
-    bands[np.argsort(values, kind="stable")] = np.arange(len(values)) * number // max(len(values), 1)
+    """0..number-1: bands that hold equally many; of equal values the first come first."""
+    size = len(values)
+    if size <= FEW:
+        bands = np.empty(size, np.int64)
+        bands[np.argsort(values, kind="stable")] = np.arange(size) * number // max(size, 1)
+        return bands
+    ascending = np.sort(values)
+    first = -(-np.arange(1, number) * size // number)  # of each band but the lowest: its least rank
+    edges = ascending[first]
+    bands = np.searchsorted(edges, values, side="right")
+    below = np.searchsorted(ascending, edges)
+    for edge, least in dict(zip(edges.tolist(), below.tolist(), strict=True)).items():
+        equal = np.flatnonzero(values == edge)
+        bands[equal] = (least + np.arange(len(equal))) * number // size
     return bands

@@ -15,6 +15,8 @@ MOST_TURNS = 64  # azimuths of the light, beyond which the sample was not held
 def turn_of_each(to: Directions) -> np.ndarray | None:
     """(samples,) the number of the azimuth that the light has in the sample's frame, to a degree, half a turn being
     none; None where it has one only, or so many that the sample was not held."""
+    if not len(to) or np.all(to.phi_i_deg == to.phi_i_deg[0, 0]):
+        return None
     azimuth = np.remainder(np.round(to.phi_i_deg[:, 0]), 180.0)
     known = np.unique(azimuth[to.theta_i_deg[:, 0] > TILTED_DEG])
     if not 2 <= len(known) <= MOST_TURNS:

@@ -32,6 +32,13 @@ def rms(residuals, sample_weights=None) -> float:
     return float(np.sqrt(mean if mean == mean else np.nanmean(squares)))
 
 
+def _sum_of_squares(residuals, counted) -> float:
+    """Of those that are known, each direction counted by its weight (samples, 1)."""
+    weighted = residuals if counted is None else residuals * counted
+    total = float(np.einsum("sc,sc->", weighted, residuals))
+    return total if total == total else float(np.nansum(weighted * residuals))
+
+
 def rms_over_all(surfaces: Sequence[Surface], measurement: Measurement, sample_weights=None) -> list[float]:
     """`rms` of `ln_residuals` of each surface, block by block, so that nothing of a large table's size is formed and
     what laws form from the directions is formed once for all of them.
@@ -43,8 +50,7 @@ def rms_over_all(surfaces: Sequence[Surface], measurement: Measurement, sample_w
         counted = None if sample_weights is None else sample_weights[rows]
         squares = []
         for surface in surfaces:
-            residuals = ln_residuals(surface, part)
-            squares.append(float(np.nansum(residuals**2 if counted is None else residuals**2 * counted)))
+            squares.append(_sum_of_squares(ln_residuals(surface, part), counted))
         return squares, int(np.count_nonzero(part.clear))
 
     with ThreadPoolExecutor(THREADS) as pool:

@@ -10,7 +10,7 @@ from an arc cosine or a difference of numbers near 1:
 None of it knows a wavelength, so that what a law forms from it serves every channel and is formed once.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from functools import cached_property
 
@@ -243,8 +243,13 @@ class Directions(KeepsFormed):
         return Directions(**{name: function(np.asanyarray(getattr(self, name))) for name in FIELDS})
 
     def __getitem__(self, rows) -> "Directions":
-        """Some of the rows: an index, slice or mask over the first axis."""
-        return self.each(lambda values: values[rows])
+        """Some of the rows: an index, slice or mask over the first axis; zenith angles that were formed are kept."""
+        picked = rows_taken(rows)
+        some = self.each(picked)
+        vars(some).update(
+            {name: picked(vars(self)[name]) for name in ("theta_i_deg", "theta_r_deg") if name in vars(self)}
+        )
+        return some
 
     def swapped(self) -> "Directions":
         """Light and detector exchanged."""
@@ -322,6 +327,14 @@ class _OfVectors(Directions):
         known = [np.where(self.lit, getattr(self, name), AT_NORMAL.get(name, 0.0)) for name in KNOWN]
         apart = (0.0, 0.0, 0.0, -1.0, 0.0)  # the detector's azimuth at 180
         return self.made(known, (np.where(self.lit, *each) for each in zip(self._tangents, apart, strict=True)))
+
+
+def rows_taken(rows) -> Callable[[np.ndarray], np.ndarray]:
+    """What takes an index, slice or mask over the first axis of arrays: one look at a mask for all of them."""
+    if not isinstance(rows, np.ndarray) or rows.ndim != 1:
+        return lambda values: values[rows]
+    places = np.flatnonzero(rows) if rows.dtype == bool else rows
+    return lambda values: values.take(places, axis=0)
 
 
 def gathered(parts: Sequence[Directions]) -> Directions:

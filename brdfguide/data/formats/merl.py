@@ -32,22 +32,25 @@ def recognises(head: bytes) -> bool:
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError where the file is not exactly as long as its header says, or holds no value."""
     planes, phis = _planes(source)
-    valid, below, invalid = _valid(planes, phis)
-    count = int(np.count_nonzero(valid))
+    cells = THETA_D * phis  # of one theta_h
+    # no more than that many rows; what is not written takes no memory
+    fields = {name: np.empty((THETA_H * cells, 1)) for name in FIELDS if name != "phi_i_deg"}
+    brdf = np.empty((THETA_H * cells, 3))
+    count = below = invalid = 0
+    for theta_h in range(THETA_H):
+        values = planes[:, theta_h * cells : (theta_h + 1) * cells]
+        angles = directions(theta_h, phis)
+        lit = (angles["cos_i"] > 0) & (angles["cos_r"] > 0)
+        picked = np.flatnonzero(lit & _filled(values))
+        rows = slice(count, count + len(picked))
+        for name, each in angles.items():
+            each.take(picked, out=fields[name][rows, 0])
+        np.multiply(values.take(picked, axis=1).T, SCALE, out=brdf[rows])
+        seen = int(np.count_nonzero(lit))
+        count, below, invalid = rows.stop, below + cells - seen, invalid + seen - len(picked)
     if not count:
         raise source.error("no cell above the horizon holds a value")
-    fields = {name: np.empty((count, 1)) for name in FIELDS if name != "phi_i_deg"}
-    brdf = np.empty((count, 3))
-    start = 0
-    for theta_h in range(THETA_H):
-        cells = slice(theta_h * THETA_D * phis, (theta_h + 1) * THETA_D * phis)
-        picked = valid[cells]
-        rows = slice(start, start + int(np.count_nonzero(picked)))
-        for name, values in directions(theta_h, phis).items():
-            fields[name][rows, 0] = values[picked]
-        for channel in range(3):
-            brdf[rows, channel] = planes[channel, cells][picked] * SCALE[channel]
-        start = rows.stop
+    fields, brdf = {name: each[:count] for name, each in fields.items()}, brdf[:count]
     phi_i = np.broadcast_to(np.zeros(1), (count, 1))
     geom = Geometry(Directions(phi_i_deg=phi_i, **fields), np.array([CHANNEL_UM[name] for name in "RGB"]))
     text = (
@@ -147,15 +150,10 @@ def cell_of(geom: Geometry, phis: int) -> np.ndarray:
     return phis * row + place(np.degrees(phi_d) * (PHI_D / 180), phis)
 
 
-def _valid(planes, phis: int):
-    """Cells above the horizon with a value in some colour; how many lie below; how many of the rest have none."""
+def _filled(values) -> np.ndarray:
+    """Cells with a value in some colour."""
     with np.errstate(invalid="ignore"):
-        filled = np.any((planes >= 0) & (planes < np.inf), axis=0)
-    lit = np.empty(filled.shape, bool)
-    for theta_h in range(THETA_H):
-        fields = directions(theta_h, phis)
-        lit[theta_h * THETA_D * phis : (theta_h + 1) * THETA_D * phis] = (fields["cos_i"] > 0) & (fields["cos_r"] > 0)
-    return filled & lit, int(np.count_nonzero(~lit)), int(np.count_nonzero(lit & ~filled))
+        return np.any((values >= 0) & (values < np.inf), axis=0)
 
 
 def directions(theta_h: int, phis: int) -> dict[str, np.ndarray]:
