@@ -36,7 +36,9 @@ class Inside:
 def _refracted(outside: Directions, n) -> Inside:
     """Each component without a difference of near numbers; T without 1 - F."""
     square = (n - 1) * (n + 1)
-    cos_i, cos_r = np.sqrt(square + outside.cos2_i) / n, np.sqrt(square + outside.cos2_r) / n
+    square_i, square_r = square + outside.cos2_i, square + outside.cos2_r
+    q_i, q_r = np.sqrt(square_i), np.sqrt(square_r)
+    cos_i, cos_r = q_i / n, q_r / n
     share = outside.v_z / (n * n * (cos_i + cos_r))  # cos θi' - cos θr' over cos θi - cos θr
     shape = np.shape(cos_i)
     inside = Directions(
@@ -50,16 +52,36 @@ def _refracted(outside: Directions, n) -> Inside:
         phi_i_deg=np.broadcast_to(outside.phi_i_deg, shape),
         phi_deg=np.broadcast_to(outside.phi_deg, shape),
     )
-    both, more = outside.formed(_cosines), np.ndim(n) - np.ndim(outside.cos_i)
-    if more > 0:
-        both = both.reshape(2, *(1,) * more, *both.shape[1:])
-    through_i, through_r = fresnel.one_minus_fresnel(both, n)
+    if np.all(square > 0):
+        sines_i, sines_r = outside.formed(_sines)
+        through_i = _through(outside.cos_i, outside.cos2_i, *sines_i, square_i, q_i)
+        through_r = _through(outside.cos_r, outside.cos2_r, *sines_r, square_r, q_r)
+    else:
+        through_i, through_r = (fresnel.one_minus_fresnel(cos, n) for cos in (outside.cos_i, outside.cos_r))
     return Inside(inside, through_i * through_r / (n * n))
 
 
-def _cosines(outside: Directions) -> np.ndarray:
-    """cos θ of both directions, (2, ...)."""
-    return np.stack((outside.cos_i, outside.cos_r))
+def _sines(outside: Directions):
+    """sin² and its square, of the light and of the detector."""
+    return [(s2, s2 * s2) for s2 in ((1 - cos) * (1 + cos) for cos in (outside.cos_i, outside.cos_r))]
+
+
+def _through(c, c2, s2, s4, q2, q):
+    """`fresnel.one_minus_fresnel` of a clear coat, to the last digit, from what is known: q = n cos θ'."""
+    rise = q * c
+    rise += rise
+    total = q2 + c2
+    total += rise
+    share = q2 * c2
+    share += s4
+    all_of_it = rise * s2
+    all_of_it += share
+    share += share
+    share /= total
+    share += s2
+    share *= rise
+    share /= all_of_it
+    return np.minimum(share, 1.0, out=share)
 
 
 class _Lately:
