@@ -7,10 +7,10 @@ probable together    (ours)
 """
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from typing import Protocol
 
-from mpmath import exp, expm1, fsum, log, mpf, sqrt
+from mpmath import exp, expm1, fsum, log, mp, mpf, sqrt
 
 from .exact_errors import SMALLEST, Readings
 from .exact_surface import ExactReading, ExactSurface
@@ -138,13 +138,19 @@ def _largest(surface: ExactSurface, data: Readings, theta: float, channel: int, 
     @cache
     def value(number: int):
         theta_r = side if number == STEPS else number * step - side
-        sight = ExactReading((theta, 0.0, abs(theta_r), 0.0 if theta_r < 0 else 180.0), data.solid_angle)
+        sight = _in_the_plane(theta, theta_r, data.solid_angle, mp.prec)
         return sight.reading(surface, channel, data.wavelengths[channel])
 
     places = {*range(0, STEPS + 1, each), STEPS}
     for around in (theta, -theta):
         places |= _beside(round((around + side) / step), BESIDE)
     return max(value(number) for number in places | _beside(max(places, key=value), each))
+
+
+@lru_cache(maxsize=4096)
+def _in_the_plane(theta: float, theta_r: float, solid_angle: float | None, prec: int) -> ExactReading:
+    """Once for all rows, to `prec` bits; θr [deg] is negative on the light's side."""
+    return ExactReading((theta, 0.0, abs(theta_r), 0.0 if theta_r < 0 else 180.0), solid_angle)
 
 
 def _beside(number: int, most: int) -> set[int]:

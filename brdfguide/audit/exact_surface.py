@@ -36,7 +36,7 @@ class RoundingDecides(Exception):
     """A lobe about the mirror direction ends, or does not, in a direction at right angles to that."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TermInAnswer:
     """One term: a law, where its numbers stand in the answer, and whether a coat lies over it."""
 
@@ -54,8 +54,18 @@ class ExactSurface:
     moved: str = ""  # the key of a number that is a step larger
     known: dict = field(default_factory=dict)  # (part, pair, channel) -> what was evaluated before any number moved
 
+    @cached_property
+    def _told(self) -> dict:
+        """(key, channel) -> the number; filled as they are asked for."""
+        return {}
+
     def at(self, key: str, channel: int):
         """One number as the double it is."""
+        if (key, channel) not in self._told:
+            self._told[key, channel] = self._exact(key, channel)
+        return self._told[key, channel]
+
+    def _exact(self, key: str, channel: int):
         value = self.values[key]
         if isinstance(value, list):
             value = value[channel if len(value) > 1 else 0]
@@ -94,6 +104,8 @@ class ExactSurface:
 
     def brdf(self, pair: ExactDirections, channel: int, wavelength):
         """The finite part [1/sr] in one channel; wavelength [µm]."""
+        if len(self.parts) == 1:
+            return self._once(self.parts[0], pair, channel, wavelength)
         return sum((self._once(each, pair, channel, wavelength) for each in self.parts), mpf(0))
 
     def _once(self, part: TermInAnswer, pair, channel: int, wavelength):
@@ -175,8 +187,6 @@ class ExactReading:
     @cached_property
     def views(self) -> list:
         """Weights and directions: the seven-point rule of a disc (Abramowitz and Stegun 25.4.61) on the cap."""
-        if self.solid_angle is None:
-            return [(mpf(1), self.pair)]
         radius = sqrt(mpf(2) / 3) * self._half_angle
         theta, phi, (x, y, z) = self.pair.theta_r, self.pair.phi_r, self.pair.r
         down = (cos(theta) * cos(phi), cos(theta) * sin(phi), -sin(theta))
@@ -194,13 +204,19 @@ class ExactReading:
 
     def reading(self, surface: ExactSurface, channel: int, wavelength):
         """What the detector reports [1/sr]; 0 where the light or the detector is below the horizon."""
+        if self.solid_angle is None:
+            return surface.brdf(self.pair, channel, wavelength) if self._is_lit else mpf(0)
         lit = [(weight, pair) for weight, pair in self.views if pair.cos_i > 0 and pair.cos_r > 0]
         total = sum((weight * surface.brdf(pair, channel, wavelength) for weight, pair in lit), mpf(0))
-        if self.solid_angle is not None and self._sees_mirror:
+        if self._sees_mirror:
             total += surface.mirror(self.pair, channel, wavelength) / (self.pair.cos_i * mpf(self.solid_angle))
         return total
 
-    @property
+    @cached_property
+    def _is_lit(self) -> bool:
+        return self.pair.cos_i > 0 and self.pair.cos_r > 0
+
+    @cached_property
     def _sees_mirror(self) -> bool:
         """Whether the mirror direction lies in the cone."""
         return 2 - 2 * self.pair.cos_m <= mpf(self.solid_angle) / pi

@@ -55,9 +55,9 @@ class ExactDirections:
     def _form(self, i, r):
         self.i, self.r = i, r
         self.cos_i, self.cos_r = i[2], r[2]
-        total = [a + b for a, b in zip(i, r, strict=True)]
-        length = sqrt(sum(a * a for a in total))
-        self.h = [a / length for a in total]
+        self.v = [a + b for a, b in zip(i, r, strict=True)]
+        length = sqrt(sum(a * a for a in self.v))
+        self.h = [a / length for a in self.v]
         self.cos_h, self.cos_d = self.h[2], sum(a * b for a, b in zip(self.h, i, strict=True))
         self.cos_m = -i[0] * r[0] - i[1] * r[1] + i[2] * r[2]
         self.tan2_h = 1 / self.cos_h**2 - 1
@@ -69,7 +69,7 @@ def _unit(theta, phi):
 
 def unpolarised(cos_t, n, k=0):
     """Fresnel's reflectance; by real amplitudes where they are real."""
-    return _unpolarised(mpf(cos_t), n, k, mp.prec)
+    return _unpolarised(cos_t if isinstance(cos_t, mpf) else mpf(cos_t), n, k, mp.prec)
 
 
 @lru_cache(maxsize=16384)
@@ -77,9 +77,11 @@ def _unpolarised(c, n, k, prec):
     """To `prec` bits, once where only the shape of a lobe is another."""
     n = mpf(n) if not k and n >= 1 else mpc(n, abs(k))
     square = n * n
-    q = sqrt(square - 1 + c * c)
-    r_s, r_p = (c - q) / (c + q), (square * c - q) / (square * c + q)
-    return (fabs(r_s) ** 2 + fabs(r_p) ** 2) / 2
+    q, within = sqrt(square - 1 + c * c), square * c
+    r_s, r_p = (c - q) / (c + q), (within - q) / (within + q)
+    if isinstance(r_s, mpf):
+        return (r_s * r_s + r_p * r_p) / 2
+    return (r_s.real**2 + r_s.imag**2 + r_p.real**2 + r_p.imag**2) / 2
 
 
 def lambertian(p, albedo):
@@ -113,8 +115,7 @@ def ward_duer(p, rho_s, alpha):
 
 
 def ward_gmd(p, rho_s, alpha):
-    h = [a + b for a, b in zip(p.i, p.r, strict=True)]
-    return rho_s * exp(-p.tan2_h / alpha**2) / (pi * alpha**2) * sum(a * a for a in h) / h[2] ** 4
+    return rho_s * exp(-p.tan2_h / alpha**2) / (pi * alpha**2) * sum(a * a for a in p.v) / p.v[2] ** 4
 
 
 def lafortune(p, ks, tilt, exponent):
@@ -131,26 +132,31 @@ def cook_torrance(p, alpha, n, k, scale):
 
 
 def beckmann_lobe(p, alpha, n, k, scale):
-    def hidden(theta):
-        if alpha * tan(theta) < mpf("0.001"):
-            return mpf(0)  # less than exp(-1e6)
-        x = 1 / (alpha * tan(theta))
-        return (exp(-x * x) / (x * sqrt(pi)) - erfc(x)) / 2
-
     d = exp(-p.tan2_h / alpha**2) / (pi * alpha**2 * p.cos_h**4)
-    return (
-        scale * unpolarised(p.cos_d, n, k) * d / (4 * p.cos_i * p.cos_r * (1 + hidden(p.theta_i) + hidden(p.theta_r)))
-    )
+    hiding = 1 + hidden_by_gauss(p.theta_i, alpha, mp.prec) + hidden_by_gauss(p.theta_r, alpha, mp.prec)
+    return scale * unpolarised(p.cos_d, n, k) * d / (4 * p.cos_i * p.cos_r * hiding)
+
+
+@lru_cache(maxsize=16384)
+def hidden_by_gauss(theta, alpha, prec):
+    """Λ of Gaussian slopes; to `prec` bits, once for each angle of a scan."""
+    steep = alpha * tan(theta)
+    if steep < mpf("0.001"):
+        return mpf(0)  # less than exp(-1e6)
+    x = 1 / steep
+    return (exp(-x * x) / (x * sqrt(pi)) - erfc(x)) / 2
 
 
 def ggx_lobe(p, alpha, n, k, scale):
-    def hidden(theta):
-        return (sqrt(1 + alpha**2 * tan(theta) ** 2) - 1) / 2
-
     d = alpha**2 / (pi * p.cos_h**4 * (alpha**2 + p.tan2_h) ** 2)
-    return (
-        scale * unpolarised(p.cos_d, n, k) * d / (4 * p.cos_i * p.cos_r * (1 + hidden(p.theta_i) + hidden(p.theta_r)))
-    )
+    hiding = 1 + hidden_by_ggx(p.theta_i, alpha, mp.prec) + hidden_by_ggx(p.theta_r, alpha, mp.prec)
+    return scale * unpolarised(p.cos_d, n, k) * d / (4 * p.cos_i * p.cos_r * hiding)
+
+
+@lru_cache(maxsize=16384)
+def hidden_by_ggx(theta, alpha, prec):
+    """Λ of GGX's slopes; to `prec` bits, once for each angle of a scan."""
+    return (sqrt(1 + (alpha * tan(theta)) ** 2) - 1) / 2
 
 
 def oren_nayar(p, albedo, spread):
@@ -195,15 +201,15 @@ def poisson_sum(g, y):
     So that a step of a parameter forms no second sum: what is left out is of third order in 1e-12.
     """
     at_g, at_y = (f"{float(each):.11e}" for each in (g, y))
-    (total, by_g, by_y), (by_gg, by_gy, by_yy) = _summed(at_g, at_y, mp.prec)
-    step_g, step_y = g - mpf(at_g), y - mpf(at_y)
+    (round_g, round_y), (total, by_g, by_y), (by_gg, by_gy, by_yy) = _summed(at_g, at_y, mp.prec)
+    step_g, step_y = g - round_g, y - round_y
     curved = by_gg * step_g**2 / 2 + by_gy * step_g * step_y + by_yy * step_y**2 / 2
     return total + by_g * step_g + by_y * step_y + curved
 
 
 @lru_cache(maxsize=65536)
 def _summed(at_g: str, at_y: str, prec: int):
-    """The sum and its slopes, then its second derivatives, around its largest term until the terms are gone; to `prec`
+    """Where it is taken, the sum and its slopes, its second derivatives, around its largest term until the terms are gone; to `prec`
     bits.
 
     Where the summand is wide every few-th term stands for all: for a Gaussian of width w in steps of w/1.9 to 1e-30.
@@ -229,7 +235,7 @@ def _summed(at_g: str, at_y: str, prec: int):
     unit = step * exp(ln_top - g) / mpf(2) ** bits
     by_m2, by_m, total, with_m, with_m2 = (unit * each for each in orders)
     curved = with_m2 / g**2 - 2 * with_m / g + total - with_m / g**2
-    return (total, with_m / g - total, -by_m), (curved, by_m - total / g, by_m2)
+    return (g, y), (total, with_m / g - total, -by_m), (curved, by_m - total / g, by_m2)
 
 
 @lru_cache(maxsize=65536)

@@ -143,8 +143,9 @@ def sent_down(coat_n):
     return 1 - (1 - mean) / coat_n**2
 
 
-def refracted(p, n):
-    """The pair inside a smooth coat of index n: the same azimuths, sines over n."""
+@lru_cache(maxsize=4096)
+def refracted(p, n, prec):
+    """The pair inside a smooth coat of index n: the same azimuths, sines over n; to `prec` bits."""
 
     def inside(w):
         return w[0] / n, w[1] / n, sqrt(1 - (w[0] ** 2 + w[1] ** 2) / n**2)
@@ -155,7 +156,7 @@ def refracted(p, n):
 def coated(p, law, values, n, depth, wavelength=WAVELENGTH):
     """A law under a clear coat (Saunderson 1942; Weidlich and Wilkie 2007 with n² restored); a body's light comes back
     from below as often as the coat sends it down."""
-    inside = refracted(p, n)
+    inside = refracted(p, n, mp.prec)
     own = {key: value / n if key in ("n", "k") else value for key, value in values.items()}
     f = evaluated(law, inside, own, wavelength / n)
     if law in BODIES:
@@ -168,20 +169,25 @@ def coated(p, law, values, n, depth, wavelength=WAVELENGTH):
 
 def evaluated(law, p, values, wavelength=WAVELENGTH):
     """One law [1/sr], by its name and the bare names of its parameters."""
-    more = {"wavelength": wavelength} if law in WAVES else {}
-    return (LAWS | ROUGHER)[law](p, **values, **more)
+    form = LAWS.get(law) or ROUGHER[law]
+    return form(p, **values, wavelength=wavelength) if law in WAVES else form(p, **values)
 
 
 def he_torrance(p, sigma, slope, n, k, scale, wavelength=WAVELENGTH):
     """He, Torrance, Sillion and Greenberg 1991 as the errata restore it, from angles; the sum by `poisson_sum`."""
     (s_i, k_i), (s_r, k_r) = (seen_of_heights(each, slope, mp.prec) for each in (p.theta_i, p.theta_r))
-    v = [a + b for a, b in zip(p.i, p.r, strict=True)]
-    left = 1 / sqrt(1 + lambertw((k_i + k_r) ** 2 / (8 * pi)).real)
-    g = (2 * pi * sigma * left * v[2] / wavelength) ** 2
-    x = (2 * pi * sigma / slope / wavelength) ** 2 * (v[0] ** 2 + v[1] ** 2)
+    left = heights_left(k_i + k_r, mp.prec)
+    g = (2 * pi * sigma * left * p.v[2] / wavelength) ** 2
+    x = (2 * pi * sigma / slope / wavelength) ** 2 * (p.v[0] ** 2 + p.v[1] ** 2)
     d = pi**2 * (sigma / slope) ** 2 / (4 * wavelength**2) * poisson_sum(g, x / 4)
-    height = (2 * (1 + sum(a * b for a, b in zip(p.i, p.r, strict=True))) / v[2]) ** 2
+    height = (sum(a * a for a in p.v) / p.v[2]) ** 2  # v² = 2 (1 + cos of the angle between)
     return scale * unpolarised(p.cos_d, n, k) * s_i * s_r / (p.cos_i * p.cos_r) * height * d / pi
+
+
+@lru_cache(maxsize=16384)
+def heights_left(k, prec):
+    """Of the rms height what the pair of directions sees, from K of both; to `prec` bits."""
+    return 1 / sqrt(1 + lambertw(k**2 / (8 * pi)).real)
 
 
 @lru_cache(maxsize=4096)
@@ -197,7 +203,7 @@ def seen_of_heights(theta, slope, prec):
 def he_mirror(p, sigma, slope, n, k, scale, wavelength=WAVELENGTH):
     """Reflectance that He and Torrance leave to the mirror direction at θi."""
     s, k_i = seen_of_heights(p.theta_i, slope, mp.prec)
-    left = 1 / sqrt(1 + lambertw(k_i**2 / (2 * pi)).real)
+    left = heights_left(2 * k_i, mp.prec)
     g = (4 * pi * sigma * left * p.cos_i / wavelength) ** 2
     return scale * unpolarised(p.cos_i, n, k) * exp(-g) * s**2
 
