@@ -53,9 +53,9 @@ def _refracted(outside: Directions, n) -> Inside:
         phi_deg=np.broadcast_to(outside.phi_deg, shape),
     )
     if np.all(square > 0):
-        sines_i, sines_r = outside.formed(_sines)
-        through_i = _through(outside.cos_i, outside.cos2_i, *sines_i, square_i, q_i)
-        through_r = _through(outside.cos_r, outside.cos2_r, *sines_r, square_r, q_r)
+        sine2_i, sine2_r = outside.formed(_sines)
+        through_i = _through(outside.cos_i, outside.cos2_i, sine2_i, square_i, q_i)
+        through_r = _through(outside.cos_r, outside.cos2_r, sine2_r, square_r, q_r)
     else:
         through_i, through_r = (fresnel.one_minus_fresnel(cos, n) for cos in (outside.cos_i, outside.cos_r))
     return Inside(inside, through_i * through_r / (n * n))
@@ -66,8 +66,9 @@ def _sines(outside: Directions):
     return [(s2, s2 * s2) for s2 in ((1 - cos) * (1 + cos) for cos in (outside.cos_i, outside.cos_r))]
 
 
-def _through(c, c2, s2, s4, q2, q):
+def _through(c, c2, sine2, q2, q):
     """`fresnel.one_minus_fresnel` of a clear coat, to the last digit, from what is known: q = n cos θ'."""
+    s2, s4 = sine2
     rise = q * c
     rise += rise
     total = q2 + c2

@@ -1,5 +1,6 @@
 """Opening a file that may be compressed, without ever holding more than its format can honestly need."""
 
+import os
 import sys
 from contextlib import contextmanager
 from mmap import ACCESS_READ, mmap
@@ -44,7 +45,7 @@ def whole_content(stream, head: bytes, limit: int, name: str, swells: bool = Fal
     while piece := stream.read(PIECE):
         content += piece
         if len(content) > limit:
-            raise InputError(f"{name}: goes on beyond {limit / 1e6:.0f} MB, more than such a file can honestly hold")
+            raise _beyond(name, limit)
         if stream.kind and not swells and len(content) > PIECE + HONEST_SWELLING * stream.consumed:
             raise InputError(
                 f"{name}: unpacks to more than {HONEST_SWELLING} times its size, which no measurement does"
@@ -52,14 +53,19 @@ def whole_content(stream, head: bytes, limit: int, name: str, swells: bool = Fal
     return content
 
 
+def _beyond(name: str, limit: int) -> InputError:
+    return InputError(f"{name}: goes on beyond {limit / 1e6:.0f} MB, more than such a file can honestly hold")
+
+
 def source_of(path, stream, head: bytes, format: Format, name: str, *, mapped: bool = False) -> Source:
     """The content of a file, mapped to memory where that is asked for; of a folder that is one, where it lies.
 
     Raises InputError as `whole_content`.
     """
-    if not isinstance(path, opening.Held) and opening.is_array_folder(path):
+    lies_there = not isinstance(path, opening.Held) and str(path) != "-" and opening.is_plain(path)
+    if lies_there and opening.is_array_folder(path):
         return Source(name, b"", folder=Path(path))
-    if mapped:
+    if mapped or format.mapped and lies_there:
         return Source(name, mapped_content(path, stream, head, format), left_behind(stream))
     data = whole_content(stream, head, format.limit, name, swells=format.whole_table)
     return Source(name, data, left_behind(stream))
@@ -77,6 +83,8 @@ def mapped_content(path, stream, head: bytes, format: Format) -> Any:
     """All of a file that lies there as it is, mapped to memory; of a packed one its content."""
     if stream.kind is None:
         with open(path, "rb") as file:
+            if format.mapped and os.fstat(file.fileno()).st_size > format.limit:
+                raise _beyond(str(path), format.limit)
             return mmap(file.fileno(), 0, access=ACCESS_READ)
     return whole_content(stream, head, format.limit, str(path), swells=format.whole_table)
 

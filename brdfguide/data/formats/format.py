@@ -116,6 +116,7 @@ class Format:
     recognises: Callable[[bytes], bool]
     read: Callable[[Source, Options], Measurement]
     limit: int = TEXT_LIMIT  # bytes beyond which such a file is not believed
+    mapped: bool = False  # a file that lies there as it is is mapped to memory, and never held
     whole_table: bool = False  # a dense table with marks of its own for missing cells
     # of a dense table: the function (geometry) -> BRDF (samples, channels), NaN where it has none, and the channels'
     # names

@@ -255,7 +255,7 @@ def _checked(source: Source, fields):
                 f"field '{name}' has shape {shape}, which does not go with {phis} phi_i, {thetas} theta_i and "
                 f"{channels} channels"
             )
-        if not np.all(np.isfinite(fields[name])):
+        if not all(np.all(np.isfinite(part)) for part in fields[name]):
             raise source.error(f"field '{name}' holds values that are not finite")
     if thetas > 1 and np.any(np.diff(fields["theta_i"]) <= 0) or phis > 1 and np.any(np.diff(fields["phi_i"]) <= 0):
         raise source.error("the stored incidences do not rise")
@@ -266,4 +266,6 @@ def _checked(source: Source, fields):
     return fields
 
 
-FORMAT = Format("rgl", (".bsdf",), recognises, read, limit=LIMIT, function=function, options=("average_phi_i",))
+FORMAT = Format(
+    "rgl", (".bsdf",), recognises, read, limit=LIMIT, mapped=True, function=function, options=("average_phi_i",)
+)
