@@ -209,8 +209,8 @@ def poisson_sum(g, y):
 
 @lru_cache(maxsize=65536)
 def _summed(at_g: str, at_y: str, prec: int):
-    """Where it is taken, the sum and its slopes, its second derivatives, around its largest term until the terms are gone; to `prec`
-    bits.
+    """Where it is taken, the sum and its slopes, then its second derivatives, around its largest term until the terms
+    are gone; to `prec` bits.
 
     Where the summand is wide every few-th term stands for all: for a Gaussian of width w in steps of w/1.9 to 1e-30.
     """

@@ -185,12 +185,13 @@ def _add(base: sqlite3.Connection, key: str, document: dict) -> bool:
     base.execute(f"INSERT OR REPLACE INTO fit VALUES ({marks})", (key, *(row[name] for name in names)))
     base.execute("INSERT OR REPLACE INTO look VALUES (?, ?, ?)", (key, vector.shape[1], vector.tobytes()))
     channels = document["data"]["channels"]
+    places, parameters = [], []
     for entry in document["ranking"]:
         errors = entry["rms_ln"], entry["held_out_rms_ln"], entry["seen"], entry["free_parameters"]
-        base.execute(
-            "INSERT INTO ranking VALUES (?, ?, ?, ?, ?, ?, ?)", (key, entry["candidate"], entry["rank"], *errors)
-        )
-        base.executemany("INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?)", _parameters(key, entry, channels))
+        places.append((key, entry["candidate"], entry["rank"], *errors))
+        parameters += _parameters(key, entry, channels)
+    base.executemany("INSERT INTO ranking VALUES (?, ?, ?, ?, ?, ?, ?)", places)
+    base.executemany("INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?)", parameters)
     return True
 
 

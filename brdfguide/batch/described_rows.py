@@ -1,6 +1,7 @@
 """What an answer is as a row of a table: its recommended surface's numbers, and how it looks."""
 
 import json
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from ..models.looks import lightness_shown, turns
 from ..models.surface import Surface
 from ..physics import fresnel, gloss, seen
 from ..physics.aperture import Instrument
+from ..physics.directions import FIELDS, Directions
+from ..physics.geometry import Geometry
 from .collected import listed
 
 LOOKS = 12, 5, 5  # of `seen.sphere`: orders pairs as the full one does, see tests/batch/test_searching.py
@@ -27,7 +30,7 @@ def described_row(document: dict) -> tuple[dict[str, Any], np.ndarray]:
     shown = look_vector(surface)
     albedo = _albedo(best, surface)
     kind, stored, nan = document.get("kind") or {}, document.get("stored") or {}, [None] * 3
-    glosses = [_finite(np.mean(gloss.units(surface.brdf, angle, quick=True))) for angle in gloss.ANGLES]
+    glosses = _glosses(surface)
     row = {
         "sha256": (stored.get("data") or {}).get("sha256"),
         "fingerprint": stored.get("fingerprint"),
@@ -50,6 +53,21 @@ def described_row(document: dict) -> tuple[dict[str, Any], np.ndarray]:
     }
     row |= dict(zip(("albedo_r", "albedo_g", "albedo_b"), nan if albedo is None else albedo, strict=True))
     return row | {f"gloss{angle}": units for angle, units in zip(gloss.ANGLES, glosses, strict=True)}, shown
+
+
+@cache
+def _receptors() -> tuple[Geometry, list[int]]:
+    """Directions of all glossmeters one behind the other, and where each but the first begins."""
+    each = [gloss.receptor_directions(angle, *gloss.QUICK)[0].directions for angle in gloss.ANGLES]
+    joined = {name: np.concatenate([getattr(part, name) for part in each]) for name in FIELDS}
+    return Geometry(Directions(**joined)), np.cumsum([len(part) for part in each[:-1]]).tolist()
+
+
+def _glosses(surface: Surface) -> list[float | None]:
+    """Units at each of the angles, the mean over channels, from one call of the model."""
+    geom, ends = _receptors()
+    parts = zip(gloss.ANGLES, np.split(surface.brdf(geom), ends), strict=True)
+    return [_finite(np.mean(gloss.units(lambda _, part=part: part, angle, quick=True))) for angle, part in parts]
 
 
 def _recommended_alone(document: dict, best: dict) -> dict:

@@ -1,7 +1,10 @@
 """What happens, as it happens, for programs: a line of JSON each."""
 
 import json
+import os
+import socket
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
@@ -57,3 +60,12 @@ def _appending(where: Path) -> IO[str]:
         return where.open("a", encoding="utf-8")
     except OSError as error:
         raise InputError(f"cannot write {where}: {error.strerror or error}") from None
+
+
+def note_begun(folder: Path, label: str) -> None:
+    """That this process begins with a file, in a file of its own in that folder; it is no matter where it cannot be."""
+    line = {"t": round(time.time(), 3), "file": label, "state": "started"}
+    with suppress(OSError):
+        folder.mkdir(exist_ok=True)
+        with (folder / f"{socket.gethostname()}-{os.getpid()}.jsonl").open("a", encoding="utf-8") as stream:
+            stream.write(json.dumps(line) + "\n")

@@ -5,19 +5,15 @@ other threads: a quarter to a half more processor time was measured. A process e
 has, and one that is ended takes no other task with it.
 """
 
-import json
 import os
 import pickle
 import queue
 import signal
-import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from pathlib import Path
 from typing import IO, Any, NamedTuple
 
 from .workers import Died
@@ -31,7 +27,6 @@ class Part(NamedTuple):
 
     do: Callable[[Any], Any]
     tasks: Sequence[Any]
-    events: Path | None = None  # a folder, for a file of each process that says what it begins
 
 
 class _Process(NamedTuple):
@@ -42,24 +37,32 @@ class _Process(NamedTuple):
 
 def answer_part(part: Part) -> list:
     """do(task) of each, or a Died."""
-    return [_asked(part.do, task, part.events) for task in part.tasks]
+    return [_asked(part.do, task) for task in part.tasks]
 
 
-def _asked(do: Callable[[Any], Any], task: Any, events: Path | None) -> Any:
-    for tries in range(1, TRIES + 1):
+def _asked(do: Callable[[Any], Any], task: Any) -> Any:
+    for _ in range(TRIES):
         mine = getattr(HERE, "process", None) or _started()
         HERE.process = None  # until it has answered, it is none to go on with
         try:
-            pickle.dump((do, task, tries, events), mine.asked)
+            pickle.dump((do, task), mine.asked)
             mine.asked.flush()
             result = pickle.load(mine.answers)
         except (EOFError, OSError, pickle.UnpicklingError):
-            mine.process.kill()
-            how = mine.process.wait()
+            how = _gone(mine)
             continue
         HERE.process = mine
         return result
     return Died(f"not done, twice: its process ended with status {how}", TRIES)
+
+
+def _gone(mine: _Process) -> int:
+    """How it ended, or is ended now."""
+    mine.process.kill()
+    mine.answers.close()
+    with suppress(OSError):  # of what it did not read
+        mine.asked.close()
+    return mine.process.wait()
 
 
 def _started() -> _Process:
@@ -77,13 +80,11 @@ def serve() -> None:
     asked: queue.SimpleQueue = queue.SimpleQueue()
     threading.Thread(target=_read, args=(sys.stdin.buffer, asked), daemon=True).start()
     while True:
-        do, task, tries, events = asked.get()
-        if events is not None:
-            _note(events, getattr(task, "label", str(task)), tries)
+        do, task = asked.get()
         try:
             result = do(task)
         except Exception as error:
-            result = Died(f"not done: its worker says {type(error).__name__}: {error}", tries)
+            result = Died(f"not done: its worker says {type(error).__name__}: {error}", 1)
         pickle.dump(result, answers)
         answers.flush()
 
@@ -94,12 +95,3 @@ def _read(stream: IO[bytes], asked: queue.SimpleQueue) -> None:
         while True:
             asked.put(pickle.load(stream))
     os._exit(1)
-
-
-def _note(folder: Path, label: str, tries: int) -> None:
-    """A line on what is begun here, in a file that no other process writes; it is no matter where it cannot be."""
-    line = {"t": round(time.time(), 3), "file": label, "state": "started", "try": tries}
-    with suppress(OSError):
-        folder.mkdir(exist_ok=True)
-        with (folder / f"{socket.gethostname()}-{os.getpid()}.jsonl").open("a", encoding="utf-8") as stream:
-            stream.write(json.dumps(line) + "\n")

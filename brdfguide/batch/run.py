@@ -16,6 +16,7 @@ from .. import __version__, opening, stopping
 from ..errors import BrdfguideError, InputError, Stopped, mistake
 from ..records import dataclass
 from ..report.documents.digest import with_digest
+from .events import note_begun
 from .keys import DataBytes, beside, bytes_of, engine, key_of
 from .process import peak_mb
 from .states import (
@@ -51,6 +52,7 @@ class Task:
     key: str = ""
     data: DataBytes = DataBytes("", 0)
     limits: Limits = UNLIMITED
+    told: Path | None = None  # a folder, where each process notes in a file what it begins
 
 
 class Again(NamedTuple):
@@ -174,7 +176,11 @@ def one(task: Task) -> FileRow:
     One that is handed out again, since the process that had it was ended, may have its answer already.
     """
     begun = time.monotonic()
-    row = _just_answered(task) or _answered(task)
+    row = _just_answered(task)
+    if row is None:
+        if task.told is not None:
+            note_begun(task.told, task.label)
+        row = _answered(task)
     return replace(row, seconds=round(time.monotonic() - begun, 4), peak_mb=peak_mb())
 
 

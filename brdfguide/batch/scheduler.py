@@ -6,7 +6,6 @@ again, since `do` looks whether it is.
 
 from collections.abc import Callable, Generator, Iterator
 from itertools import islice
-from pathlib import Path
 from typing import Any
 
 from ..errors import EngineLost, InputError
@@ -25,10 +24,8 @@ def by_scheduler(
     address: str,
     of: int = 0,
     tell: Callable[[int, int], None] = lambda number, tries: None,
-    events: Path | None = None,
 ) -> Generator[tuple[int, Any]]:
-    """(number, do(task)) of each of about `of` tasks as it is done, or a Died; `tell` hears of each that is handed out,
-    and in the folder `events` each process over there keeps a file of what it begins.
+    """(number, do(task)) of each of about `of` tasks as it is done, or a Died; `tell` hears of each that is handed out.
 
     Files, and the folder for answers, must have the same names on every machine. Raises InputError where the package is
     not there or the address is none, EngineLost where nobody answers, or no longer.
@@ -49,7 +46,7 @@ def by_scheduler(
                 if part:
                     for number in part:
                         tell(number, 1)
-                    future = client.submit(answer_part, Part(do, list(part.values()), events), pure=False)
+                    future = client.submit(answer_part, Part(do, list(part.values())), pure=False)
                     numbers[future] = list(part)
                     running.add(future)
             if numbers:

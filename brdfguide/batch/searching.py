@@ -32,8 +32,11 @@ class AllLooks:
 
     def from_one(self, shown: np.ndarray) -> np.ndarray:
         """S [L*] between each of them and one (directions, colours)."""
-        squares = np.square(self.lightness - shown.astype(np.float32))
-        return np.sqrt(np.einsum("ndc,d->n", squares, self.weights) / 3)
+        counts = np.repeat(self.weights / 3, 3)
+        at = np.broadcast_to(shown, self.lightness.shape[1:]).astype(np.float32).ravel()
+        each = self.lightness.reshape(len(self.keys), -1)
+        blocks = (each[begin : begin + BLOCK] - at for begin in range(0, len(each), BLOCK))
+        return np.sqrt(np.concatenate([np.square(block, out=block) @ counts for block in blocks] or [counts[:0]]))
 
     def flat(self) -> np.ndarray:
         """(answers, 3 directions): the distance of two rows is S."""
@@ -46,8 +49,10 @@ def all_looks(base: sqlite3.Connection, scene: Scene | None = None) -> AllLooks:
     rows = base.execute("SELECT key, colours, vector FROM look ORDER BY key").fetchall()
     count = len(seen.sphere(LOOKS).weights)
     lightness = np.empty((len(rows), count, 3), np.float32)
-    for place, (_, colours, vector) in enumerate(rows):
-        lightness[place] = np.frombuffer(vector, np.float32).reshape(count, colours)
+    for colours in {each for _, each, _ in rows}:  # 3, or 1 of a grey one
+        places = [place for place, row in enumerate(rows) if row[1] == colours]
+        read = np.frombuffer(b"".join(rows[place][2] for place in places), np.float32)
+        lightness[places] = read.reshape(-1, count, colours)
     weights = seen.sphere(LOOKS).weights if scene is None else scene_weights(scene)
     return AllLooks([key for key, *_ in rows], np.nan_to_num(lightness), (weights / weights.sum()).astype(np.float32))
 

@@ -66,7 +66,8 @@ def answer_many(batch: Batch, tasks: "list[Task | FileRow]") -> int:
         raise InputError("--events - and --json: one of them can have standard output")
     check_apart(batch.work.products, [each.label for each in tasks if hasattr(each, "label")])
     store = None if many.out is None else store_at(many.out)
-    tasks = [_kept_in(store, each) for each in tasks]
+    told_in = many.out / "events" if many.out is not None and many.scheduler and many.events else None
+    tasks = [_kept_in(store, told_in, each) for each in tasks]
     limits = Limits(many.timeout, many.memory)
     where = None if many.events in (None, "-") else Path(str(many.events))
     told = _Told()
@@ -92,10 +93,10 @@ def answer_many(batch: Batch, tasks: "list[Task | FileRow]") -> int:
     return 0 if many.keep_going and told.answered and status < STOPPED else status
 
 
-def _kept_in(store, task):
+def _kept_in(store, told_in, task):
     from dataclasses import replace
 
-    return replace(task, store=store) if store is not None and hasattr(task, "label") else task
+    return replace(task, store=store, told=told_in) if store is not None and hasattr(task, "label") else task
 
 
 def _engine(many: Many, limits, tasks, events) -> "Engine":
@@ -109,8 +110,7 @@ def _engine(many: Many, limits, tasks, events) -> "Engine":
     if many.scheduler:
         from ..batch.scheduler import by_scheduler
 
-        told = None if many.out is None or many.events is None else many.out / "events"
-        return partial(by_scheduler, address=many.scheduler, of=len(tasks), tell=started, events=told)
+        return partial(by_scheduler, address=many.scheduler, of=len(tasks), tell=started)
     if (many.jobs > 1 and len(tasks) > 1) or many.timeout or many.memory:
         from ..batch.workers import done
 

@@ -28,6 +28,7 @@ LOBES = {"beckmann": microfacet.beckmann_shape, "ggx": microfacet.ggx_shape}
 LOW = 0.002  # alpha that a reading is turned into, at least
 HIGH = 1.0  # and at most
 STEPS = 48  # of the table between
+QUICK = 2, 11  # nodes over the lamp and the receptor, good to 1 unit
 # two instruments agree within 1 unit or 1.5 % of the reading; ASTM D523's reproducibility, rounded
 REPEATS = (1.0, 0.015)
 
@@ -43,7 +44,7 @@ def units(f, angle: int, mirror: float = 0.0, quick: bool = False):
     Takes  f giving (samples, channels).    Gives  (channels,); `quick` is good to 1 unit.
     Lobes narrower than about 0.02° need `mirror` instead.
     """
-    geom, weight = receptor_directions(angle, 2, 11) if quick else receptor_directions(angle)
+    geom, weight = receptor_directions(angle, *QUICK) if quick else receptor_directions(angle)
     return 100 / black_glass(angle) * (np.sum(weight * f(geom), axis=0) + mirror)
 
 

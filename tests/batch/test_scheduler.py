@@ -1,18 +1,22 @@
 """A dask cluster on this machine: every file is answered, also where a worker is killed."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
+from brdfguide.batch import far
 from brdfguide.batch.scheduler import by_scheduler
 from brdfguide.batch.workers import Died, Done
 from brdfguide.errors import EngineLost, InputError
 
 from .. import patience
 from ..conftest import ROOT
+from . import far_tasks
 from .test_run import kept, some
 
 pytest.importorskip("distributed")
@@ -55,7 +59,7 @@ def test_every_file_is_answered_though_a_worker_is_killed(cluster, tmp_path):
     files = [some(tmp_path, f"{part}.csv", part) for part in range(9)]
     (tmp_path / "bad.csv").write_text("theta_i,theta_r,brdf\n10,x,0.1\n")
     words = ["fit", *map(str, files), str(tmp_path / "bad.csv"), "-m", "lambertian+ggx", "--no-timing"]
-    words += ["--out", str(tmp_path / "d"), "--scheduler", address]
+    words += ["--out", str(tmp_path / "d"), "--scheduler", address, "--events", str(tmp_path / "events")]
     command = [sys.executable, "-m", "brdfguide", *words]
     run = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     patience.until(lambda: kept(tmp_path / "d"), run)
@@ -64,26 +68,21 @@ def test_every_file_is_answered_though_a_worker_is_killed(cluster, tmp_path):
     lines = out.splitlines()[1:]
     assert [line.split()[-1] for line in lines] == ["answered"] * 9 + ["input"], err
     assert run.returncode == 2 and "bad.csv" in err and len(kept(tmp_path / "d")) == 9
-
-
-def double(number):
-    return 2 * number
+    told = [line for tale in (tmp_path / "d" / "events").glob("*.jsonl") for line in tale.read_text().splitlines()]
+    begun = [json.loads(line)["file"] for line in told]
+    assert len(set(begun)) == 10 and len(begun) <= 11  # at most the one that was under way
 
 
 @pytest.mark.filterwarnings("default")
 def test_tasks_come_back_by_their_numbers(cluster):
     tasks = [(number, Done("before") if number == 3 else number) for number in range(20)]
-    found = dict(by_scheduler(double, iter(tasks), cluster[0]))
+    found = dict(by_scheduler(far_tasks.double, iter(tasks), cluster[0]))
     assert found == {number: 2 * number for number in range(20)} | {3: "before"}
-
-
-def fail(_):
-    raise ZeroDivisionError("x")
 
 
 @pytest.mark.filterwarnings("default")
 def test_a_mistake_over_there_is_a_result(cluster):
-    ((number, result),) = by_scheduler(fail, iter([(5, 0)]), cluster[0])
+    ((number, result),) = by_scheduler(far_tasks.fail, iter([(5, 0)]), cluster[0])
     assert number == 5 and isinstance(result, Died) and "ZeroDivisionError" in result.words
 
 
@@ -91,6 +90,53 @@ def test_a_mistake_over_there_is_a_result(cluster):
 def test_nobody_there_and_no_address_are_sentences(monkeypatch):
     monkeypatch.setattr("brdfguide.batch.scheduler.WAITED_S", 0.5)
     with pytest.raises(EngineLost, match="tcp://127.0.0.1:9: nobody answers"):
-        list(by_scheduler(double, iter([(0, 1)]), "tcp://127.0.0.1:9"))
+        list(by_scheduler(far_tasks.double, iter([(0, 1)]), "tcp://127.0.0.1:9"))
     with pytest.raises(InputError, match="wanted an address such as"):
-        list(by_scheduler(double, iter([(0, 1)]), "nonsense://x"))
+        list(by_scheduler(far_tasks.double, iter([(0, 1)]), "nonsense://x"))
+
+
+@pytest.fixture
+def own_process():
+    """What a thread of the cluster keeps is ended with the test."""
+    yield
+    kept_one = getattr(far.HERE, "process", None)
+    if kept_one is not None:
+        far.HERE.process = None
+        for stream in (kept_one.asked, kept_one.answers):
+            stream.close()
+        kept_one.process.wait(timeout=patience.AN_AGE_S)
+
+
+def test_a_file_whose_process_was_ended_is_tried_once_more(tmp_path, own_process):
+    one, other = far.answer_part(far.Part(far_tasks.ended_once, [tmp_path / "one", tmp_path / "one"]))
+    assert one == other != os.getpid()  # and the process goes on with the next
+    (died,) = far.answer_part(far.Part(far_tasks.ended, [0]))
+    assert isinstance(died, Died) and died.words == "not done, twice: its process ended with status 3"
+
+
+ASKING = """
+import sys
+from pathlib import Path
+from brdfguide.batch import far
+from tests.batch import far_tasks
+if __name__ == "__main__":
+    far.answer_part(far.Part(far_tasks.asleep, [Path(sys.argv[1])]))
+"""
+
+
+def test_a_process_ends_with_the_one_that_it_works_for(tmp_path):
+    run = subprocess.Popen([sys.executable, "-c", ASKING, str(tmp_path / "pid")], cwd=ROOT)
+    patience.until((tmp_path / "pid").exists, run)
+    number = int((tmp_path / "pid").read_text())
+    run.kill()
+    run.wait()
+    end = time.monotonic() + patience.AN_AGE_S
+    while is_there(number) and time.monotonic() < end:
+        time.sleep(0.01)
+    assert not is_there(number)
+
+
+def is_there(number: int) -> bool:
+    """Whether a process runs; one that ended and that nobody waited for does not."""
+    found = subprocess.run(["ps", "-o", "stat=", "-p", str(number)], capture_output=True, text=True, check=False)
+    return found.stdout.strip() not in ("", "Z")

@@ -95,6 +95,23 @@ def test_answers_become_a_table_that_grows_and_shrinks_with_the_folder(tmp_path)
     assert collected.collect_into(answers, base_path) == (2, 0)
 
 
+def test_folders_in_which_nothing_was_written_since_are_not_looked_at(tmp_path, monkeypatch):
+    answers, base_path = store.store_at(tmp_path / "d"), tmp_path / "all.sqlite"
+    files = [some(tmp_path, f"{part}.csv", part) for part in range(3)]
+    list(run_tasks([Task(str(file), file, WORK, answers) for file in files[:2]], answers))
+    monkeypatch.setattr(collected, "JUST_NOW_NS", -(10**12))  # as if all had been long ago
+    assert collected.collect_into(answers, base_path) == (2, 2)
+    with monkeypatch.context() as without:
+        without.setattr(store.Store, "names", None)
+        without.setattr(store.Store, "read", None)
+        assert collected.collect_into(answers, base_path) == (2, 0)
+    list(run_tasks([Task(str(files[2]), files[2], WORK, answers)], answers))
+    assert collected.collect_into(answers, base_path) == (3, 1)
+    other = store.store_at(tmp_path / "e")
+    list(run_tasks([Task(str(files[0]), files[0], WORK, other)], other))
+    assert collected.collect_into(other, base_path) == (1, 0)
+
+
 def test_the_row_of_an_answer_says_what_its_surface_is():
     surface = Surface.named(
         "lambertian+beckmann", {"albedo": [0.5, 0.25, 0.1], "beckmann.alpha": 0.2, "beckmann.n": 1.5}

@@ -34,7 +34,7 @@ MAY_NOT_LOAD = {
     "search --help": HEAVY,
     "prune-answers --help": HEAVY,
     "prune-answers OUT": ("scipy", "yaml", "matplotlib"),
-    "search OUT satin": ("scipy", "matplotlib"),
+    "search OUT satin": HEAVY,
     "recommend --help": HEAVY,
     "recommend porcelain": ("scipy", "matplotlib", "rich", "typer", "brdfguide.data.formats"),
     "recommend porcelain --json": (
