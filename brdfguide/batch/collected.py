@@ -185,7 +185,8 @@ def _add(base: sqlite3.Connection, key: str, document: dict) -> bool:
     base.execute(f"INSERT OR REPLACE INTO fit VALUES ({marks})", (key, *(row[name] for name in names)))
     base.execute("INSERT OR REPLACE INTO look VALUES (?, ?, ?)", (key, vector.shape[1], vector.tobytes()))
     channels = document["data"]["channels"]
-    places, parameters = [], []
+    places: list[tuple] = []
+    parameters: list[tuple] = []
     for entry in document["ranking"]:
         errors = entry["rms_ln"], entry["held_out_rms_ln"], entry["seen"], entry["free_parameters"]
         places.append((key, entry["candidate"], entry["rank"], *errors))

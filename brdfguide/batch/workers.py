@@ -232,9 +232,9 @@ def _ended(workers: list[_Worker]) -> None:
 
 def _serve(do, line: Connection, memory_mb: float | None) -> None:
     """In the other process: one task after the other, until ours is gone."""
-    if memory_mb is not None:
-        limit_data(memory_mb)
     threading.Thread(target=_watch, daemon=True).start()
+    if memory_mb is not None:
+        limit_data(memory_mb)  # last: with less than the program itself takes no thread could begin
     while True:
         try:
             task = line.recv()

@@ -84,6 +84,11 @@ def test_a_task_that_wants_more_memory_than_it_may_have_fails_in_its_own_process
     assert found == {0: "MemoryError", 1: "1"}
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems set no such limit")
+def test_less_memory_than_the_program_itself_takes_is_no_death():
+    assert dict(workers.done(greedy, iter([(0, 20)]), 1, Limits(memory_mb=5))) == {0: "MemoryError"}
+
+
 def test_leaving_early_ends_the_processes(tmp_path):
     files = [str(tmp_path / str(number)) for number in range(1000)]
     with closing(workers.done(double_or_sleep, enumerate([1, *files]), 2)) as answers:
