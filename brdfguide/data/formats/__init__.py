@@ -83,9 +83,7 @@ def in_blocks(path, *, wavelength=None, in_plane: bool = False, theta_max: float
         head = stream.read(HEAD)
         known = next((each for each in members() if each.parts and each.recognises(head)), None)
         if known is not None:
-            return _in_parts(
-                known, _open.source_of(path, stream, head, known, str(path), mapped=True), asked, selection
-            )
+            return _in_parts(known, _open.source_of(path, stream, head, known, str(path)), asked, selection)
     if os.path.getsize(path) <= LARGEST_TABLE:
         return None
     format = recognised(head, str(path))

@@ -57,16 +57,16 @@ def _beyond(name: str, limit: int) -> InputError:
     return InputError(f"{name}: goes on beyond {limit / 1e6:.0f} MB, more than such a file can honestly hold")
 
 
-def source_of(path, stream, head: bytes, format: Format, name: str, *, mapped: bool = False) -> Source:
-    """The content of a file, mapped to memory where that is asked for; of a folder that is one, where it lies.
+def source_of(path, stream, head: bytes, format: Format, name: str) -> Source:
+    """The content of a file, mapped to memory or left where it lies if the format wants that and it is not packed.
 
     Raises InputError as `whole_content`.
     """
     lies_there = not isinstance(path, opening.Held) and str(path) != "-" and opening.is_plain(path)
-    if lies_there and opening.is_array_folder(path):
-        return Source(name, b"", folder=Path(path))
-    if mapped or format.mapped and lies_there:
-        return Source(name, mapped_content(path, stream, head, format), left_behind(stream))
+    if lies_there and stream.kind is None and format.in_place:
+        return Source(name, b"", place=Path(path))
+    if lies_there and stream.kind is None and format.mapped:
+        return Source(name, mapped_content(path, name, format.limit))
     data = whole_content(stream, head, format.limit, name, swells=format.whole_table)
     return Source(name, data, left_behind(stream))
 
@@ -79,14 +79,12 @@ def left_behind(stream) -> tuple[Finding, ...]:
     return (Finding("bytes-behind", text, "warning", numbers=(("bytes", stream.behind),)),)
 
 
-def mapped_content(path, stream, head: bytes, format: Format) -> Any:
-    """All of a file that lies there as it is, mapped to memory; of a packed one its content."""
-    if stream.kind is None:
-        with open(path, "rb") as file:
-            if format.mapped and os.fstat(file.fileno()).st_size > format.limit:
-                raise _beyond(str(path), format.limit)
-            return mmap(file.fileno(), 0, access=ACCESS_READ)
-    return whole_content(stream, head, format.limit, str(path), swells=format.whole_table)
+def mapped_content(path, name: str, limit: int) -> Any:
+    """All of a file that lies there as it is, mapped to memory. Raises InputError for more than `limit` bytes."""
+    with open(path, "rb") as file:
+        if os.fstat(file.fileno()).st_size > limit:
+            raise _beyond(name, limit)
+        return mmap(file.fileno(), 0, access=ACCESS_READ)
 
 
 class _Unpacked:

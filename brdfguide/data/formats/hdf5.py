@@ -4,6 +4,7 @@ Links to other files and datasets that keep their numbers in some are refused.
 """
 
 import io
+import os
 from collections.abc import Iterator
 from functools import partial
 
@@ -43,8 +44,9 @@ def parts(source: Source, options: Options) -> Iterator[Measurement]:
 def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     h5py = library("h5py", "hdf5", source, "an HDF5 file")
     with damage_told(source, KIND):
-        root = h5py.File(io.BufferedReader(_Bytes(source.data)), "r")
-    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), len(source.data))
+        content = _Content(source)
+        root = h5py.File(io.BufferedReader(content), "r")
+    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), content.size)
 
 
 def _members(source: Source, h5py, group) -> dict:
@@ -77,11 +79,16 @@ class _Words:
         return self.text[rows]
 
 
-class _Bytes(io.RawIOBase):
-    """The content of a file, mapped to memory or held, as a stream that goes back and forth without a copy."""
+class _Content(io.RawIOBase):
+    """The content of a file that lies there or is held, as a stream that goes back and forth without a copy.
 
-    def __init__(self, data):
-        self.data, self.at = memoryview(data), 0
+    Not mapped to memory: of a large file all that was read would be counted as the program's.
+    """
+
+    def __init__(self, source: Source):
+        self.handle = None if source.place is None else os.open(source.place, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+        self.held, self.at = memoryview(source.data), 0
+        self.size = len(self.held) if self.handle is None else os.fstat(self.handle).st_size
 
     def readable(self) -> bool:
         return True
@@ -90,17 +97,27 @@ class _Bytes(io.RawIOBase):
         return True
 
     def seek(self, offset: int, whence: int = io.SEEK_SET) -> int:
-        self.at = offset + (0, self.at, len(self.data))[whence]
+        self.at = offset + (0, self.at, self.size)[whence]
         return self.at
 
     def tell(self) -> int:
         return self.at
 
     def readinto(self, into) -> int:
-        piece = self.data[self.at : self.at + len(into)]
+        if self.handle is None:
+            piece: bytes | memoryview = self.held[self.at : self.at + len(into)]
+        else:
+            os.lseek(self.handle, self.at, os.SEEK_SET)
+            piece = os.read(self.handle, len(into))
         into[: len(piece)] = piece
         self.at += len(piece)
         return len(piece)
+
+    def close(self) -> None:
+        if self.handle is not None:
+            os.close(self.handle)
+            self.handle = None
+        super().close()
 
 
 FORMAT = Format(
@@ -113,4 +130,5 @@ FORMAT = Format(
     options=("columns", "unit", "select", "rotation_sense"),
     parts=parts,
     is_large=is_large,
+    in_place=True,
 )

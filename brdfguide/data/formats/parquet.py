@@ -61,7 +61,8 @@ def parts(source: Source, options: Options) -> Iterator[Measurement]:
 def _opened(source: Source):
     pyarrow = library("pyarrow", "parquet", source, "a Parquet table")
     parquet = library("pyarrow.parquet", "parquet", source, "a Parquet table")
-    return parquet.ParquetFile(pyarrow.BufferReader(pyarrow.py_buffer(source.data)))
+    held = pyarrow.OSFile(str(source.place)) if source.place else pyarrow.BufferReader(pyarrow.py_buffer(source.data))
+    return parquet.ParquetFile(held)
 
 
 def _sheet(source: Source) -> Sheet:
@@ -97,4 +98,5 @@ FORMAT = Format(
     options=("columns", "unit", "select", "rotation_sense"),
     parts=parts,
     is_large=is_large,
+    in_place=True,
 )

@@ -37,11 +37,11 @@ def parts(source: Source, options: Options) -> Iterator[Measurement]:
 
 def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     zarr = library("zarr", "zarr", source, "a zarr folder")
-    if source.folder is None:
+    if source.place is None:
         raise source.error("a zarr folder is read where it lies, not from a stream")
-    size = sum(each.stat().st_size for each in source.folder.rglob("*"))
+    size = sum(each.stat().st_size for each in source.place.rglob("*"))
     with damage_told(source, KIND):
-        root = zarr.open(str(source.folder), mode="r")
+        root = zarr.open(str(source.place), mode="r")
     return _named_arrays.tables_in(source, KIND, root, _members, size)
 
 
@@ -60,4 +60,5 @@ FORMAT = Format(
     options=("columns", "unit", "select", "rotation_sense"),
     parts=parts,
     is_large=is_large,
+    in_place=True,
 )
