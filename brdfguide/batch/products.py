@@ -59,11 +59,12 @@ def path_for(path: Path | None, label: str) -> Path | None:
     return place
 
 
-def patterned(kind: str, pattern: Path | str, many: bool, **more) -> Product:
-    """A product in a file of the user's. Raises InputError for a name that is the same for every surface of many."""
+def patterned(kind: str, pattern: Path | str, many: bool, option: str = "", **more) -> Product:
+    """A product in a file of the user's, by an `option` that is called otherwise than its kind. Raises InputError for a
+    name that is the same for every surface of many."""
     text = str(pattern)
     if many and not any(part in text for part in (STEM, PARENT)):
-        raise InputError(f"--{kind} {text}: {FOLLOWS}, such as {_with_stem(Path(text))}")
+        raise InputError(f"{option or '--' + kind} {text}: {FOLLOWS}, such as {_with_stem(Path(text))}")
     if kind == PLOT:
         picture_kind(text)
     return Product(kind, text, **more)

@@ -103,7 +103,7 @@ def _export_many(request: ExportRequest, inputs: list[str]) -> int:
     target = str(request.to)
     work = ExportWork(
         target=target,
-        products=(patterned(EXPORT, request.output, True, target=target),),
+        products=(patterned(EXPORT, request.output, True, "-o", target=target),),
         model=request.model,
         most=request.max_export_error,
         force=request.force,
