@@ -198,14 +198,14 @@ def _add(base: sqlite3.Connection, key: str, document: dict) -> bool:
 
 def _parameters(key: str, entry: dict, channels: list[str]) -> Iterator[tuple]:
     for name, value in entry["parameters"].items():
-        values, errors = listed(value["value"]), listed(value["stderr"])
+        values, errors = each_of(value["value"]), each_of(value["stderr"])
         for place, each in enumerate(values):
             channel = channels[place] if len(values) == len(channels) else ""
             error = errors[place] if place < len(errors) else None
             yield key, entry["candidate"], name, channel, each, error, value["unit"], value["at_bound"]
 
 
-def listed(value) -> list:
+def each_of(value) -> list:
     """A number, or one for each channel, as a list."""
     return value if isinstance(value, list) else [value]
 

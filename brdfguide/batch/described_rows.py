@@ -14,7 +14,7 @@ from ..physics import fresnel, gloss, seen
 from ..physics.aperture import Instrument
 from ..physics.directions import FIELDS, Directions
 from ..physics.geometry import Geometry
-from .collected import listed
+from .collected import each_of
 
 LOOKS = 12, 5, 5  # of `seen.sphere`: orders pairs as the full one does, see tests/batch/test_searching.py
 
@@ -90,9 +90,9 @@ def _doubt(surface: Surface, best: dict, shown: np.ndarray) -> float | None:
         if value["stderr"] is None or name not in surface.model.parameters:
             continue
         parameter = surface.model.parameters[name]
-        errors = np.array([each or 0.0 for each in listed(value["stderr"])], float)
+        errors = np.array([each or 0.0 for each in each_of(value["stderr"])], float)
         low, high = parameter.outside(parameter.least), parameter.outside(parameter.high)
-        moved = parameter.inside(np.clip(np.array(listed(value["value"]), float) + errors, low, high))
+        moved = parameter.inside(np.clip(np.array(each_of(value["value"]), float) + errors, low, high))
         changed = surface.with_value(name, moved if np.size(moved) > 1 else float(np.ravel(moved)[0]))
         squares += seen.apart(look_vector(changed), shown, weights) ** 2
     return _finite(np.sqrt(squares))
@@ -103,7 +103,7 @@ def _albedo(best: dict, surface: Surface) -> list[float] | None:
     found = [value["value"] for name, value in best["parameters"].items() if name.rpartition(".")[2] == "albedo"]
     if not found:
         return None
-    each = np.broadcast_to(np.array(listed(found[0]), float), (len(surface.channels),))
+    each = np.broadcast_to(np.array(each_of(found[0]), float), (len(surface.channels),))
     mixed = each @ seen.colours(surface.channels, surface.wavelengths)
     return [float(value) for value in np.broadcast_to(mixed, (3,))]
 
@@ -112,10 +112,10 @@ def _f0(best: dict) -> float | None:
     """Reflectance of the lobe's surface at normal incidence, the mean over channels."""
     values = {name.rpartition(".")[2].lower(): value["value"] for name, value in best["parameters"].items()}
     if "f0" in values:
-        return _finite(np.mean(listed(values["f0"])))
+        return _finite(np.mean(each_of(values["f0"])))
     if "n" not in values:
         return None
-    n, k = (np.array(listed(values.get(name, 0.0)), float) for name in "nk")
+    n, k = (np.array(each_of(values.get(name, 0.0)), float) for name in "nk")
     return _finite(np.mean(fresnel.f0(n, k)))
 
 
