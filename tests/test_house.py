@@ -46,6 +46,7 @@ LATE = {
     "data.formats._open": {"zlib", "lzma", "bz2"},  # Python may be built without them
     "errors": {"difflib", "pathlib", ".", ".printable"},  # only to word an error, and `roughness` starts without them
     "report.text.emergence": {"json", ".folding"},  # the same command answers in words, and in a pipe, without them
+    "batch.collected": {".described_rows"},  # models and NumPy, of which a search by words has no need
     "batch.flat_files": {"pyarrow"},  # an optional dependency
     "batch.scheduler": {"distributed"},  # an optional dependency
     "report.path_traced.tracer": {"mitsuba"},  # an optional dependency

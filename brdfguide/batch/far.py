@@ -22,7 +22,7 @@ TRIES = 2  # of a task whose process ended
 HERE = threading.local()  # the process of this thread
 
 
-class Part(NamedTuple):
+class PartOfBatch(NamedTuple):
     """Some of a batch, done by one thread of the cluster, one after the other."""
 
     do: Callable[[Any], Any]
@@ -35,7 +35,7 @@ class _Process(NamedTuple):
     answers: IO[bytes]
 
 
-def answer_part(part: Part) -> list:
+def answer_part(part: PartOfBatch) -> list:
     """do(task) of each, or a Died."""
     return [_asked(part.do, task) for task in part.tasks]
 

@@ -9,7 +9,7 @@ from itertools import islice
 from typing import Any
 
 from ..errors import EngineLost, InputError
-from .far import Part, answer_part
+from .far import PartOfBatch, answer_part
 from .workers import Died, Done
 
 WAITED_S = 10.0  # for the scheduler
@@ -46,7 +46,7 @@ def by_scheduler(
                 if part:
                     for number in part:
                         tell(number, 1)
-                    future = client.submit(answer_part, Part(do, list(part.values())), pure=False)
+                    future = client.submit(answer_part, PartOfBatch(do, list(part.values())), pure=False)
                     numbers[future] = list(part)
                     running.add(future)
             if numbers:

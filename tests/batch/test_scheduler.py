@@ -108,9 +108,9 @@ def own_process():
 
 
 def test_a_file_whose_process_was_ended_is_tried_once_more(tmp_path, own_process):
-    one, other = far.answer_part(far.Part(far_tasks.ended_once, [tmp_path / "one", tmp_path / "one"]))
+    one, other = far.answer_part(far.PartOfBatch(far_tasks.ended_once, [tmp_path / "one", tmp_path / "one"]))
     assert one == other != os.getpid()  # and the process goes on with the next
-    (died,) = far.answer_part(far.Part(far_tasks.ended, [0]))
+    (died,) = far.answer_part(far.PartOfBatch(far_tasks.ended, [0]))
     assert isinstance(died, Died) and died.words == "not done, twice: its process ended with status 3"
 
 
@@ -120,7 +120,7 @@ from pathlib import Path
 from brdfguide.batch import far
 from tests.batch import far_tasks
 if __name__ == "__main__":
-    far.answer_part(far.Part(far_tasks.asleep, [Path(sys.argv[1])]))
+    far.answer_part(far.PartOfBatch(far_tasks.asleep, [Path(sys.argv[1])]))
 """
 
 
