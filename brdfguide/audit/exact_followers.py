@@ -172,7 +172,7 @@ def price(answer: dict, rows: Mapping[str, RowOfAnswer], data: Readings, found: 
     if told is None or best is None:
         return
     expected, probability = _most_probable(told["if_right"], mpf(told["rms_ln"]))
-    found.check("off_plane.in_plane_rms_ln", told["in_plane_rms_ln"], best.rms)
+    found.loosened(best.surface.slack).check("off_plane.in_plane_rms_ln", told["in_plane_rms_ln"], best.rms)
     found.check("off_plane.rms_ln", told["rms_ln"], expected)
     found.check("off_plane.probability", told["probability"], probability)
     found.rounded("off_plane.expected_percent", told["expected_percent"], _percent(expected), PRICE_DIGITS)
@@ -187,7 +187,8 @@ def price(answer: dict, rows: Mapping[str, RowOfAnswer], data: Readings, found: 
             assert rival is not None
             sight = ExactReading((at["theta_i_deg"], 0.0, at["theta_r_deg"], at["phi_deg"]), data.solid_angle)
             right = _mean_ln(rival.surface, sight, data) - _mean_ln(best.surface, sight, data)
-            found.check(f"{place}.at[{rank}].ln_ratio", at["ln_ratio"], right, absolute=1e-12)
+            both = found.loosened(best.surface.slack + rival.surface.slack)
+            both.check(f"{place}.at[{rank}].ln_ratio", at["ln_ratio"], right, absolute=1e-12)
 
 
 def _most_probable(laws: list[dict], told):

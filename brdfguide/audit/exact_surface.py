@@ -18,8 +18,10 @@ GRAINED = {"ggx-aniso", "stam", *textbook_grain.LAWS, *textbook_grain.ROUGHER}
 # told in degrees, meant in radians
 ANGLES = {"tilt": {"lafortune"}, "spread": {"oren-nayar"}, "theta0": {"sgd-published"}, "axis": GRAINED}
 SHORT = {"he": "he-torrance"}
-# of `ggx-ms` the program keeps a series that holds five digits, and `cylinders` take a minute
-KNOWN = {*textbook_more.LAWS, *textbook_more.ROUGHER} - {"ggx-ms", "cylinders"}
+KNOWN = {*textbook_more.LAWS, *textbook_more.ROUGHER} - {"cylinders"}  # which take a minute
+# laws of which the program keeps a series: how far from ours ln f may be, and from which alpha on; with narrower ones
+# too few digits of what several facets send are told beside the lobe
+SERIES = {"ggx-ms": (1e-4, 0.12)}
 COAT = ("coat.n", "coat.depth")
 STEP = mpf("1e-15")  # relative, for differences: of 30 digits fifteen are left
 ENDING = {"phong", "phong-lewis"}  # lobes that end at right angles to the mirror direction
@@ -30,6 +32,10 @@ LINEAR = {"ks", "rho_s", "scale", "flake", "rho"}  # which laws are proportional
 
 class NoLaw(Exception):
     """A law that is not written down a second time."""
+
+
+class TooNarrow(Exception):
+    """A lobe of which the program's series tells too few digits."""
 
 
 class RoundingDecides(Exception):
@@ -53,6 +59,11 @@ class ExactSurface:
     values: dict  # key -> one number, or one for each channel, as printed
     moved: str = ""  # the key of a number that is a step larger
     known: dict = field(default_factory=dict)  # (part, pair, channel) -> what was evaluated before any number moved
+
+    @cached_property
+    def slack(self) -> float:
+        """How far from ours ln f may be in the program, by what it says of its series."""
+        return max((SERIES[each.law][0] for each in self.parts if each.law in SERIES), default=0.0)
 
     @cached_property
     def _told(self) -> dict:
@@ -144,7 +155,7 @@ class ExactSurface:
 
 
 def surface_of(expression: str, parameters: dict) -> ExactSurface:
-    """A row's `model` and its `parameters`. Raises NoLaw for a law that is not written down here."""
+    """A row's `model` and its `parameters`. Raises NoLaw for a law that is not written down here, TooNarrow."""
     values = {key: entry["value"] for key, entry in parameters.items() if not entry.get("derived")}
     parts: list[TermInAnswer] = []
     coated = False
@@ -158,6 +169,10 @@ def surface_of(expression: str, parameters: dict) -> ExactSurface:
             raise NoLaw(name)
         labels = [law] if not count else [f"{law}.{place}" for place in range(1, int(count) + 1)]
         parts += [TermInAnswer(law, _keys(label, labels[0], values), coated) for label in labels]
+    for part in parts:
+        told = values[dict(part.keys)["alpha"]] if part.law in SERIES else []
+        if any(each < SERIES[part.law][1] for each in (told if isinstance(told, list) else [told])):
+            raise TooNarrow
     return ExactSurface(tuple(parts), values)
 
 

@@ -30,15 +30,23 @@ class Comparisons:
     """Comparisons as they are made."""
 
     derived: list[Rederived] = field(default_factory=list)
+    slack: float = 0.0  # of ln, and relative to what is larger than 1: what the program itself promises of a series
+
+    def loosened(self, slack: float) -> "Comparisons":
+        """For further numbers into the same list."""
+        return Comparisons(self.derived, slack)
 
     def check(self, place: str, found, right, relative: float = CLOSE, absolute: float = 1e-15) -> None:
         """One number; nothing where the answer has none."""
         if found is not None:
-            allowed = relative * abs(float(right)) + absolute
+            allowed = relative * abs(float(right)) + absolute + self.slack * max(1.0, abs(float(right)))
             self.derived.append(Rederived(place, float(found), float(right), allowed))
 
     def rounded(self, place: str, found, right, digits: int = TOLD) -> None:
         """One that was printed with so many digits; either neighbour where it lies between two."""
+        if self.slack:
+            self.check(place, found, right, 10.0 ** (1 - digits), 100 * self.slack)
+            return
         ends = [float(f"{float(right) * (1 + step):.{digits}g}") for step in (-CLOSE, CLOSE)]
         self.check(place, found, ends[0] if found == ends[0] else ends[1], EXACT)
 

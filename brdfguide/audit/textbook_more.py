@@ -105,26 +105,38 @@ def hidden_by_student(theta, w, g, prec):
 
 def ggx_ms(p, alpha, n, k, scale):
     """GGX and what several facets send; its albedos by Gauss's rule over both angles, to ten digits for wide lobes."""
-    nodes, weights = np.polynomial.legendre.leggauss(200)
-
-    def albedo(theta):
-        theta_r, phi = (nodes + 1)[:, None] * np.pi / 4, (nodes + 1) * np.pi / 2
-        i = np.array([np.sin(theta), 0.0, np.cos(theta)])
-        r = np.sin(theta_r) * np.cos(phi), np.sin(theta_r) * np.sin(phi), np.cos(theta_r) + 0 * phi
-        tilt = ((i[0] + r[0]) ** 2 + r[1] ** 2) / (i[2] + r[2]) ** 2
-        hidden = [(np.sqrt(1 + float(alpha) ** 2 * np.tan(each) ** 2) - 1) / 2 for each in (theta, theta_r)]
-        d = float(alpha) ** 2 * (1 + tilt) ** 2 / (np.pi * (float(alpha) ** 2 + tilt) ** 2)
-        f = d / (4 * i[2] * r[2] * (1 + hidden[0] + hidden[1]))
-        return np.pi**2 / 4 * (weights @ (f * np.cos(theta_r) * np.sin(theta_r)) @ weights)
-
-    e_i, e_r = (mpf(albedo(float(each))) for each in (p.theta_i, p.theta_r))
-    cosines, of_cosines = np.polynomial.legendre.leggauss(60)
-    roots = (cosines + 1) / 2
-    mean_e = mpf(sum(w * 2 * x**3 * albedo(np.arccos(x * x)) for x, w in zip(roots, of_cosines, strict=True)))
-    mean_f = quad(lambda c: 2 * c * unpolarised(c, n, k), [0, mpf("0.01"), mpf("0.1"), 1])
+    e_i, e_r = (mpf(_albedo_of_facets(float(each), float(alpha))) for each in (p.theta_i, p.theta_r))
+    mean_e, mean_f = mpf(_mean_albedo_of_facets(float(alpha))), _mean_reflected(n, k, mp.prec)
     colour = mean_f**2 * mean_e / (1 - mean_f * (1 - mean_e))
     between = (1 - e_i) * (1 - e_r) / (pi * (1 - mean_e))
     return textbook.ggx_lobe(p, alpha, n, k, 1) * scale + scale * colour * between
+
+
+@lru_cache(maxsize=4096)
+def _albedo_of_facets(theta, alpha):
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    theta_r, phi = (nodes + 1)[:, None] * np.pi / 4, (nodes + 1) * np.pi / 2
+    i = np.array([np.sin(theta), 0.0, np.cos(theta)])
+    r = np.sin(theta_r) * np.cos(phi), np.sin(theta_r) * np.sin(phi), np.cos(theta_r) + 0 * phi
+    tilt = ((i[0] + r[0]) ** 2 + r[1] ** 2) / (i[2] + r[2]) ** 2
+    hidden = [(np.sqrt(1 + alpha**2 * np.tan(each) ** 2) - 1) / 2 for each in (theta, theta_r)]
+    d = alpha**2 * (1 + tilt) ** 2 / (np.pi * (alpha**2 + tilt) ** 2)
+    f = d / (4 * i[2] * r[2] * (1 + hidden[0] + hidden[1]))
+    return np.pi**2 / 4 * (weights @ (f * np.cos(theta_r) * np.sin(theta_r)) @ weights)
+
+
+@lru_cache(maxsize=64)
+def _mean_albedo_of_facets(alpha):
+    cosines, of_cosines = np.polynomial.legendre.leggauss(60)
+    roots = (cosines + 1) / 2
+    pairs = zip(roots, of_cosines, strict=True)
+    return float(sum(w * 2 * x**3 * _albedo_of_facets(float(np.arccos(x * x)), alpha) for x, w in pairs))
+
+
+@lru_cache(maxsize=64)
+def _mean_reflected(n, k, prec):
+    """F̄; to `prec` bits."""
+    return quad(lambda c: 2 * c * unpolarised(c, n, k), [0, mpf("0.01"), mpf("0.1"), 1])
 
 
 def coated_body(p, albedo, coat_n):

@@ -106,6 +106,28 @@ def test_a_lobe_that_ends_in_a_direction_that_was_measured_is_left():
     assert result.left.keys() == {"phong"} and not result.wrong and result.derived
 
 
+@pytest.mark.parametrize(("alpha", "left"), [(0.4, 0), (0.05, 2)])
+def test_of_a_law_by_a_series_four_digits_are_compared_and_a_changed_one_is_found(alpha, left):
+    """Albedos by Gauss's rule over the hemisphere, beside the program's series: `ggx-ms` from alpha 0.12 on."""
+    model = models.get("lambertian+ggx-ms")
+    values = {**model.defaults(), "lambertian.albedo": 0.2, "ggx-ms.alpha": alpha}
+    data = synthetic.surface(model, synthetic.scan(theta_i=(20, 60), step=10.0), values, noise=0.02)
+    found = fit(data, ("lambertian+ggx-ms", "ggx-ms", "lambertian+ggx"), timing=False, anyway=True)
+    document = json.loads(json.dumps(found.document))
+    honest = verified((found.measurement, document))
+    series = [place for place, row in enumerate(document["ranking"]) if "ggx-ms" in row["model"]]
+    assert not honest.wrong and len(honest.left) <= left
+    if honest.left:
+        assert "too few digits" in next(iter(honest.left.values()))
+        return
+    places = {each.place for each in honest.derived}
+    assert {f"ranking[{place}].{name}" for place in series for name in ("rms_ln", "behind", "seen")} <= places
+    for place in series:
+        document["ranking"][place]["rms_ln"] += 5e-4
+        assert verified((found.measurement, document)).wrong
+        document["ranking"][place]["rms_ln"] -= 5e-4
+
+
 GRAINED = ("he-torrance-aniso", "stam", "ggx-aniso")
 
 
