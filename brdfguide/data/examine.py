@@ -325,17 +325,18 @@ def _gaps(m: Measurement):
 
 def _marks(m: Measurement):
     """Saturation: the highest value again and again."""
-    values = m.brdf[m.usable]
-    top = values.max()
-    count = int(np.count_nonzero(values == top))
-    rows = np.any(m.usable & (m.brdf == top), axis=1)
+    top = np.max(m.brdf, where=m.usable, initial=0.0)
+    high = m.usable & (m.brdf > 0.999 * top)
+    nearly = m.brdf[high] < top
+    count = int(np.count_nonzero(~nearly))
+    rows = np.unique(np.nonzero(high)[0][~nearly])
     # a lobe that is even all round repeats its top at one distance
     places = np.unique(np.round(m.geom.mirror_distance2[rows, 0], 4))
     if (
         count >= 4
-        and count < 0.2 * values.size
+        and count < 0.2 * np.count_nonzero(m.usable)
         and len(places) > 2
-        and count > 3 * np.count_nonzero((values < top) & (values > 0.999 * top))
+        and count > 3 * np.count_nonzero(nearly)
     ):
         text = f"the highest value, {top:g}/sr, stands {count} times: the detector's limit"
         yield Finding(

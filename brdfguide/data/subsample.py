@@ -1,5 +1,6 @@
 """A few well-chosen directions out of very many: for searching, where the whole would only cost time."""
 
+from functools import lru_cache
 from random import Random
 
 import numpy as np
@@ -49,9 +50,15 @@ def representative_rows(measurement: Measurement, count: int, seed: int = 0, amo
         return np.arange(size) if among is None else np.flatnonzero(among)
     order = _by_stratum(measurement.geom)
     order = order if among is None else order[among[order]]
-    uniform = Random(seed).random  # numpy's generators take longer to import than this takes to run
-    sampled = (np.arange(count) + [uniform() for _ in range(count)]) * (size / count)
+    sampled = (np.arange(count) + _uniform(count, seed)) * (size / count)
     return np.unique(order[sampled.astype(int).clip(max=size - 1)])
+
+
+@lru_cache(maxsize=8)
+def _uniform(count: int, seed: int) -> np.ndarray:
+    """Numbers of 0..1; NumPy's generators take longer to import than these take to draw."""
+    draw = Random(seed).random
+    return np.array([draw() for _ in range(count)])
 
 
 @formed

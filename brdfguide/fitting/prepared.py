@@ -7,6 +7,7 @@ import numpy as np
 from ..data import subsample
 from ..data.measurement import Measurement
 from ..errors import InputError, NoAnswer
+from ..formed import formed
 from ..records import dataclass
 from . import starting_grid, weights
 from .diagnostics import standard_errors
@@ -127,6 +128,7 @@ def prepare(measurement: Measurement, weighting: str = "auto") -> Prepared:
     )
 
 
+@formed
 def compared(measurement: Measurement) -> Measurement:
     """The directions on which models are compared: itself where it is no larger."""
     rows = compared_rows(measurement)

@@ -38,6 +38,8 @@ def of_values(measurement: Measurement, kind: str = "auto") -> np.ndarray:
         floor = 0.1 * np.nanmedian(relative[measurement.clear])  # one lucky sample must not decide
         weights = np.where(np.isfinite(relative), 1 / np.clip(relative, max(floor, 1e-12), 1e6) ** 2, 0.0)
     counted = sample_weights(measurement, kind)
+    if counted is None and not (kind in ("auto", "stderr") and errors is not None):
+        return weights
     weights = weights if counted is None else weights * counted
     return weights / np.mean(weights[measurement.weighed])
 

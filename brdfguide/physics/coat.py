@@ -82,7 +82,7 @@ def _through(c, c2, sine2, q2, q):
     share += s2
     share *= rise
     share /= all_of_it
-    return np.minimum(share, 1.0, out=share)
+    return np.minimum(share, 1.0)
 
 
 class _Lately:

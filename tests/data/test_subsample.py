@@ -5,7 +5,7 @@ import pytest
 
 from brdfguide import models
 from brdfguide.data import formats, subsample
-from brdfguide.data.measurement import Measurement
+from brdfguide.data.measurement import Measurement, row_median, rows_of_each
 from brdfguide.fitting import fit
 from brdfguide.physics.geometry import Geometry, rows
 
@@ -91,3 +91,39 @@ def test_models_far_behind_settle_on_fewer_directions_and_stay_within_their_erro
                     found.name,
                     name,
                 )
+
+
+def test_bands_of_many_values_hold_the_same_rows_however_they_are_found(monkeypatch):
+    """Edges in place of the order, with many equal values, seed 3."""
+    whole = scatter(60_000)
+    angles = (whole.geom.theta_i_deg, 0.0 * whole.geom.phi_i_deg, whole.geom.theta_r_deg, whole.geom.phi_deg)
+    rounded = Geometry.from_degrees(*(np.round(0.9 * each, -1) for each in angles))
+    for geom in (whole.geom, rounded):
+        measurement = Measurement(geom, whole.brdf)
+        found = subsample.representative_rows(measurement, 3000)
+        monkeypatch.setattr(subsample, "FEW", 10**9)
+        assert np.array_equal(subsample.representative_rows(Measurement(geom.afresh(), whole.brdf), 3000), found)
+        monkeypatch.undo()
+
+
+def test_rows_of_each_tenth_and_medians_of_three_channels_are_numpys():
+    angles = np.round(np.random.default_rng(5).uniform(0, 90, 30_000), 1)
+    found = rows_of_each(angles)
+    assert list(found) == np.unique(angles).tolist()
+    assert all(np.array_equal(rows, np.flatnonzero(angles == angle)) for angle, rows in found.items())
+    values = np.random.default_rng(6).standard_normal((1000, 3))
+    assert np.array_equal(row_median(values), np.median(values, axis=1))
+    values[::7, 1] = np.nan
+    np.testing.assert_array_equal(row_median(values), np.nanmedian(values, axis=1))
+
+
+@pytest.mark.parametrize("picked", ["mask", "rows", "slice"])
+def test_some_rows_keep_the_angles_that_were_formed(picked):
+    whole = scatter(1000)
+    rows = {"mask": np.arange(1000) % 3 == 0, "rows": np.arange(0, 1000, 3), "slice": slice(None, None, 3)}[picked]
+    before, angles = whole[rows], whole.geom.theta_r_deg
+    after = whole[rows]
+    assert "theta_r_deg" not in vars(before.geom.directions) and "theta_r_deg" in vars(after.geom.directions)
+    for some in (before, after):
+        assert np.array_equal(some.geom.theta_r_deg, angles[::3]) and np.array_equal(some.brdf, whole.brdf[::3])
+        assert np.array_equal(some.geom.phi_deg, whole.geom.phi_deg[::3])

@@ -210,3 +210,11 @@ def test_indices_in_turn_are_each_answered_as_on_fresh_directions():
     for n in (*indices, *reversed(indices), np.array([1.5, 1.4])):
         np.testing.assert_array_equal(optics.under(geom, n)[0].gate, optics.under(geom.afresh(), n)[0].gate)
         assert optics.under(geom, n)[0] is optics.under(geom, n)[0]
+
+
+def test_what_enters_a_coat_is_one_minus_fresnel_to_the_last_digit():
+    geom = rows(Geometry.from_degrees(ANGLES, 0.0, 30.0, 180.0))
+    for n in (1.0, 1.0 + 1e-9, 1.33, 1.5, 4.0):
+        inside, _ = optics.under(geom, n)
+        through = fresnel.one_minus_fresnel(geom.cos_i, n) * fresnel.one_minus_fresnel(geom.cos_r, n)
+        assert np.array_equal(inside.gate, through / (n * n))

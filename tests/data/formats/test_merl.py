@@ -2,12 +2,14 @@
 
 import gzip
 import lzma
+import mmap
 import struct
 
 import numpy as np
 import pytest
 
 from brdfguide.data import formats
+from brdfguide.data.formats import merl
 from brdfguide.errors import InputError
 from brdfguide.physics.geometry import Geometry
 
@@ -102,3 +104,20 @@ def test_tables_at_hand_are_read_whole(data, name):
     measurement = formats.read(data / "merl_format" / f"{name}.binary.xz")
     assert 1_000_000 < len(measurement.geom) <= 1_100_000
     assert measurement.channels == ("R", "G", "B")
+
+
+def test_a_file_that_lies_there_is_mapped_and_one_of_another_size_is_a_sentence(tmp_path, monkeypatch):
+    content = merl.packed(merl.table(lambda geom: np.full((len(geom), 3), 0.2)))
+    path = tmp_path / "grey.binary"
+    path.write_bytes(content)
+    packed = tmp_path / "grey.binary.xz"
+    packed.write_bytes(lzma.compress(content, preset=0))
+    assert np.array_equal(formats.read(path).brdf, formats.read(packed).brdf)
+    _, source = formats.opened(path)
+    assert isinstance(source.data, mmap.mmap)
+    path.write_bytes(content[:-8])
+    with pytest.raises(InputError, match="wanted 34992012 for a table"):
+        formats.read(path)
+    path.write_bytes(content + bytes(len(content) + 100))
+    with pytest.raises(InputError, match="goes on beyond"):
+        formats.read(path)
