@@ -38,6 +38,8 @@ STEP = 1e-3  # of ln gain and of degrees, for differences
 STEPS = 8  # of Gauss and Newton, the most
 SETTLED = 0.02  # standard errors, below which a step of all numbers is the last
 SURE = 4.0  # standard deviations of chi² by which the misfit must fall
+HOPELESS = 0.5  # of that fall, which the first step must promise (ours)
+CERTAINLY = 1.5  # times the score of a discrepancy, from which after the first step one stays (ours)
 MOST_CHANNELS = 31  # more make the joint problem dear
 LIKELY = 4.0  # prior standard deviations; what is farther off is no drift
 WILD = 3.0  # robust standard deviations beyond which a residual is cut, lest a few hide that the others correlate
@@ -83,8 +85,26 @@ def without_drift(measurement: Measurement, drift: Drift) -> Measurement:
     return replace(_turned(measurement, drift.zero_deg), brdf=measurement.brdf / gain, stderr=stderr)
 
 
-def adjusted(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndarray) -> Adjusted | None:
-    """Model and instrument together, from the model's own values; None where the data have no scans.
+@dataclass(frozen=True, eq=False)
+class Begun:
+    """A model and an instrument before they are fitted together, and the first step of Gauss and Newton."""
+
+    layout: Layout
+    angles: np.ndarray  # (scans,), degrees
+    scan: np.ndarray  # (samples,), the number of each row's
+    misfit: Misfit
+    at: tuple[np.ndarray, np.ndarray]  # coordinates
+    here: "_Around"
+    priors: np.ndarray  # standard deviations
+    freedom: int  # values less numbers of the model
+    variance: float  # of one residual
+    first: tuple[np.ndarray, np.ndarray, np.ndarray]  # what is free, its step and covariance
+    squares: float  # sum, those of the priors included, that the step promises
+    hopeless: bool  # what it promises is far from an answer
+
+
+def begun(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndarray) -> Begun | None:
+    """Looks ahead from the model's own values by one step; None where the data have no scans.
 
     `residuals` ln(model/data) of the model alone, where the best models settle.
     """
@@ -93,30 +113,45 @@ def adjusted(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndar
         return None
     angles, scan = found
     misfit, alike = _by_noise(layout, data, residuals)
-    shared, per_channel = layout.encode(values)
+    at = layout.encode(values)
     if not alike:
-        alone = misfit.descend((shared, per_channel), 1e-6)
-        shared, per_channel = alone.shared, alone.per_channel
+        alone = misfit.descend(at, 1e-6)
+        at = alone.shared, alone.per_channel
     priors = np.r_[np.full(len(angles), GAIN), ZERO_DEG]
-    nuisance = np.zeros(len(priors))
-    here = _around(misfit, shared, per_channel, scan, len(angles))
-    before, common = float(np.sum(here.residual**2)), standard_errors.common_channels(here.residual)
-    count = int(np.count_nonzero(data.fewer.measurement.weighed)) - layout.count
-    variance = common * before / max(count, 1)
-    for _ in range(STEPS):
-        free = _inside(layout, shared, per_channel)
-        step, covariance = _step(here, free, nuisance, variance / priors**2)
+    here = _around(misfit, *at, scan, len(angles))
+    before = float(np.sum(here.residual**2))
+    freedom = int(np.count_nonzero(data.fewer.measurement.weighed)) - layout.count
+    variance = standard_errors.common_channels(here.residual) * before / max(freedom, 1)
+    free = _inside(layout, *at)
+    step, covariance = _step(here, free, np.zeros(len(priors)), variance / priors**2)
+    left = here.residual + _by_step(here, free, step)
+    then = _variance(left, freedom - len(priors))
+    squares = float(np.sum(left**2) + then * np.sum((step[-len(priors) :] / priors) ** 2))
+    hopeless = (before - squares) / then < HOPELESS * _least_fall(len(priors)) or _alike(left, misfit, data)
+    first = free, step, covariance
+    return Begun(layout, angles, scan, misfit, at, here, priors, freedom, variance, first, squares, hopeless)
+
+
+def adjusted(begun: Begun, data: Prepared) -> Adjusted:
+    """Model and instrument together, from the model's own values."""
+    layout, priors, here, misfit, variance = begun.layout, begun.priors, begun.here, begun.misfit, begun.variance
+    shared, per_channel = begun.at
+    before, nuisance, scans = float(np.sum(here.residual**2)), np.zeros(len(priors)), len(begun.angles)
+    free, step, covariance = begun.first
+    for turn in range(STEPS):
+        if turn:
+            free = _inside(layout, shared, per_channel)
+            step, covariance = _step(here, free, nuisance, variance / priors**2)
         shared, per_channel = _moved(layout, shared, per_channel, step[: len(step) - len(priors)], free)
         nuisance = nuisance + step[-len(priors) :]
         misfit = replace(misfit, measurement=_turned(data.fewer.measurement, float(nuisance[-1])))
-        here = _around(misfit, shared, per_channel, scan, len(angles))
+        here = _around(misfit, shared, per_channel, begun.scan, scans)
         left = _left(here, nuisance)
-        common = standard_errors.common_channels(left)
-        variance = max(common * float(np.sum(left**2)) / max(count - len(priors), 1), 1e-30)
+        variance = _variance(left, begun.freedom - len(priors))
         if np.all(np.abs(step) < SETTLED * np.sqrt(variance * np.diag(covariance))):
             break
     errors = np.sqrt(variance * np.diag(covariance))
-    drift = Drift(angles, nuisance[:-1], errors[-len(priors) : -1], float(nuisance[-1]), float(errors[-1]))
+    drift = Drift(begun.angles, nuisance[:-1], errors[-len(priors) : -1], float(nuisance[-1]), float(errors[-1]))
     all_values = layout.decode(shared, per_channel)
     return Adjusted(
         drift=drift,
@@ -127,6 +162,25 @@ def adjusted(layout: Layout, values: Mapping, data: Prepared, residuals: np.ndar
         before=before / variance,
         at=(shared, per_channel),
     )
+
+
+def _variance(left: np.ndarray, freedom: int) -> float:
+    """Of one residual, as many times as channels say the same."""
+    return max(standard_errors.common_channels(left) * float(np.sum(left**2)) / max(freedom, 1), 1e-30)
+
+
+def _least_fall(count: int) -> float:
+    """Of chi², by far more than by chance, for so many numbers of the instrument."""
+    return count + SURE * np.sqrt(2 * count)
+
+
+def _alike(left: np.ndarray, misfit: Misfit, data: Prepared) -> bool:
+    """Whether neighbours among the residuals that a step leaves are alike by far more than where none errs."""
+    if len(data.fewer.weights) < len(data.settle.weights):
+        return False  # their order is not known
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.where(misfit.weights > 0, left / np.sqrt(misfit.weights), np.nan)
+    return standard_errors.serial_correlation(part, data.orders)[1] > CERTAINLY * standard_errors.DISCREPANT
 
 
 def _by_noise(layout: Layout, data: Prepared, residuals: np.ndarray) -> tuple[Misfit, bool]:
@@ -179,19 +233,27 @@ def _left(here: _Around, nuisance) -> np.ndarray:
     return here.residual + np.tensordot(here.columns[..., :-1], nuisance[:-1], axes=(2, 0))
 
 
+def _design(here: _Around, free) -> np.ndarray:
+    """Derivatives (channels x samples, numbers) by all that is `free` and by what the instrument does."""
+    channels, samples, count = here.by_shared.shape
+    own = here.by_own.shape[2]
+    design = np.zeros((channels, samples, count + channels * own + here.columns.shape[2]))
+    design[:, :, :count] = here.by_shared
+    for channel in range(channels):
+        design[channel, :, count + channel * own : count + (channel + 1) * own] = here.by_own[channel]
+    design[:, :, count + channels * own :] = np.swapaxes(here.columns, 0, 1)
+    kept = np.r_[np.flatnonzero(free), np.arange(len(free), design.shape[2])]
+    return design.reshape(channels * samples, -1)[:, kept]
+
+
+def _by_step(here: _Around, free, step) -> np.ndarray:
+    """What a step changes of the residuals (samples, channels), to first order."""
+    return (_design(here, free) @ step).reshape(here.residual.T.shape).T
+
+
 def _step(here: _Around, free, nuisance, weights):
     """One step of all that is `free`, and its covariance in units of the variance."""
-    left, j_shared, j_per_channel = _left(here, nuisance), here.by_shared, here.by_own
-    channels, samples, count = j_shared.shape
-    own = j_per_channel.shape[2]
-    design = np.zeros((channels, samples, count + channels * own + len(nuisance)))
-    design[:, :, :count] = j_shared
-    for channel in range(channels):
-        design[channel, :, count + channel * own : count + (channel + 1) * own] = j_per_channel[channel]
-    design[:, :, count + channels * own :] = np.swapaxes(here.columns, 0, 1)
-    design = design.reshape(channels * samples, -1)
-    kept = np.r_[np.flatnonzero(free), np.arange(len(free), design.shape[1])]
-    design, right = design[:, kept], -np.ravel(left.T)
+    design, right = _design(here, free), -np.ravel(_left(here, nuisance).T)
     normal = design.T @ design
     normal[np.diag_indices(len(normal))] += np.r_[np.zeros(int(free.sum())), weights]
     aim = design.T @ right - np.r_[np.zeros(int(free.sum())), weights * nuisance]
@@ -239,7 +301,7 @@ def explains(found: Adjusted, data: Prepared, residuals: np.ndarray) -> bool:
     drift = found.drift
     count = len(drift.ln_gains) + 1
     fallen = found.before - found.penalised
-    if fallen < count + SURE * np.sqrt(2 * count):
+    if fallen < _least_fall(count):
         return False
     if np.any(np.abs(drift.ln_gains) > LIKELY * GAIN) or abs(drift.zero_deg) > LIKELY * ZERO_DEG:
         return False

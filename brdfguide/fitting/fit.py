@@ -27,6 +27,7 @@ from .residuals import ln_residuals, rms, rms_over_all
 PRUNED = 4.0  # times the best error beyond which a model is not refined
 LEAST_PRUNED = 0.5  # rms below which every model is refined
 ASKED_OF_DRIFT = 3  # of the best models, whose misfit may be the instrument's
+MAY_BE_BEST = 1.5  # times the least squares that one step beside the instrument promises, up to which one may be (ours)
 ROBUST_ROUNDS = 4
 MOST_TO_SETTLE = 400  # evaluations
 
@@ -267,18 +268,21 @@ def _beside_the_instrument(fits: list[Fit], layouts: list[Layout], data: Prepare
     refined = [place for place, each in enumerate(fits) if not each.has("coarse")]
     nearest = sorted(refined, key=lambda place: fits[place].rms_ln)[:ASKED_OF_DRIFT]
 
-    def adjusted(place: int) -> drift.Adjusted | None:
+    def begun(place: int) -> drift.Begun | None:
         left = _where_settled(data, fits[place].residuals, fits[place].surface)
-        return drift.adjusted(layouts[place], fits[place].values, data, left)
+        return drift.begun(layouts[place], fits[place].values, data, left)
 
-    found = {place: adjusted(place) for place in nearest}
-    known = {place: each for place, each in found.items() if each is not None}
-    if not known:
+    asked = {place: each for place in nearest if (each := begun(place)) is not None}
+    least = min((each.squares for each in asked.values()), default=0.0)
+    likely = {place: each for place, each in asked.items() if each.squares <= MAY_BE_BEST * least}
+    if all(each.hopeless for each in likely.values()):
         return fits
+    known = {place: drift.adjusted(each, data) for place, each in likely.items()}
     best = min(known, key=lambda place: known[place].penalised * known[place].variance)
     if not drift.explains(known[best], data, _adjusted_residuals(fits[best], known[best], data)[1]):
         return fits
-    known |= {place: each for place in refined if place not in found and (each := adjusted(place)) is not None}
+    more = {place: asked.get(place) or begun(place) for place in refined if place not in known}
+    known |= {place: drift.adjusted(each, data) for place, each in more.items() if each is not None}
     return [
         _adjusted(each, layouts[place], known[place], data) if place in known else each
         for place, each in enumerate(fits)
