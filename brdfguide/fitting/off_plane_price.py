@@ -17,7 +17,6 @@ from functools import lru_cache
 import numpy as np
 
 from ..data.measurement import Measurement
-from ..models.surface import Surface
 from ..numerics.gaussian_process import Foretold, Places, Weighed, weighed
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry
@@ -104,13 +103,13 @@ def off_plane_price(ranking: Ranking, measurement: Measurement) -> Price | None:
     counted = [IfRight(laws[place].fit.name, _rounded(probable[place]), then[place]) for place in count]
     by_law = tuple(sorted(counted, key=lambda each: -each.probability))
     expected, probability = most_probable(by_law)
-    apart = [
-        _apart(
-            row, _ln(row.fit.surface, there) - _ln(ranking.recommended.fit.surface, there), then[place], weights, there
-        )
+    rivals = [
+        (place, row)
         for place, row in sorted(enumerate(laws), key=lambda each: -probable[each[0]])
         if place != best and (row.tied or probable[place] >= AS_WELL)
     ]
+    ln = {place: known.ln_of(laws[place].fit, said[place], there) for place in (best, *(each[0] for each in rivals))}
+    apart = [_apart(row, ln[place] - ln[best], then[place], weights, there) for place, row in rivals]
     told = tuple(each for each in apart if each.rms_ln > PARTS and abs(np.log(each.then / expected)) > WITHIN)
     return Price(expected, probability, ranking.recommended.rms_ln, by_law, told)
 
@@ -220,6 +219,12 @@ class _Known:
         ln, onward = ln_with_slopes(Layout(fit.model, len(self.channels)), thinned_surface(fit), self.there)
         return _Said(ln, tuple(each.elsewhere(onward[:, c]) for c, each in enumerate(known)))
 
+    def ln_of(self, fit: Fit, said: _Said, there: Instrument) -> np.ndarray:
+        """ln of what the instrument reads outside, mean over all channels, (directions,)."""
+        if len(self.channels) == len(fit.surface.channels):
+            return np.mean(said.ln, axis=1)
+        return np.mean(np.log(np.maximum(reading(fit.surface, there), SMALLEST)), axis=1)
+
     def evidence(self, known: tuple[Weighed, ...]) -> float:
         """ln of how probable a law makes the values: of one channel, since all tell of the same directions."""
         return float(np.mean([each.evidence for each in known]))
@@ -230,11 +235,6 @@ class _Known:
             (gap[:, channel] + each.mean) ** 2 + each.variance + each.noise for channel, each in enumerate(said.missed)
         ]
         return float(np.sqrt(np.mean(squares, axis=0) @ weights))
-
-
-def _ln(surface: Surface, there: Instrument) -> np.ndarray:
-    """ln of what the instrument reads, mean over all channels, (directions,)."""
-    return np.mean(np.log(np.maximum(reading(surface, there), SMALLEST)), axis=1)
 
 
 def _apart(row: Row, difference: np.ndarray, then: float, weights: np.ndarray, there: Instrument) -> Apart:

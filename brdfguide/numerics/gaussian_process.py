@@ -22,17 +22,12 @@ COUNTS = 0.01  # probability of an s/n below which it is left out
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """The kernel's eigenvalues (N,) and eigenvectors (N, N) between the places with values, smallest first, and that
-    from M others to them, by the last R eigenvectors (M, R), which say something."""
+    """The kernel's R eigenvalues (R,) and eigenvectors (N, R) between the places with values that say something,
+    smallest first, and that from M others to them, by these eigenvectors (M, R)."""
 
     strength: np.ndarray
     vectors: np.ndarray
     onward: np.ndarray
-
-    @cached_property
-    def heard(self) -> slice:
-        """The last R."""
-        return slice(len(self.strength) - self.onward.shape[1], None)
 
     @cached_property
     def onward_squares(self) -> np.ndarray:
@@ -48,7 +43,8 @@ class Places:
         """Of places as points (N, d) and (M, d) of which the kernel is exp(-distance²/2)."""
         strength, vectors = np.linalg.eigh(gaussian_kernel(known, known))
         first = int(np.searchsorted(strength, SILENT * strength[-1])) if len(strength) else 0
-        return cls(np.maximum(strength, 0.0), vectors, gaussian_kernel(others, known) @ vectors[:, first:])
+        vectors = vectors[:, first:]
+        return cls(np.maximum(strength[first:], 0.0), vectors, gaussian_kernel(others, known) @ vectors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,23 +59,23 @@ class Foretold:
 @dataclass(frozen=True, eq=False)
 class Weighed:
     """What values say at their own places: ln of how probable they are, and of each (s/n)² that counts how probable it
-    is, n², the equations of b and their solution; values and slopes by eigenvectors."""
+    is, n², the equations of b and their solution; values and slopes by the R eigenvectors that say something."""
 
     places: Places
     evidence: float
     probable: np.ndarray  # (K,)
     ratio: np.ndarray  # (K,)
-    weight: np.ndarray  # (K, N)
+    weight: np.ndarray  # (K, R)
     noise: np.ndarray  # (K,)
     inside: np.ndarray  # (K, p, p)
     moved: np.ndarray  # (K, p)
-    values: np.ndarray  # (N,)
-    slopes: np.ndarray  # (N, p)
+    values: np.ndarray  # (R,)
+    slopes: np.ndarray  # (R, p)
 
     def elsewhere(self, onward_slopes: np.ndarray) -> Foretold:
         """Takes  slopes J (M, p) elsewhere."""
-        heard, onward = self.places.heard, self.places.onward
-        q, j, pull = self.values[heard], self.slopes[heard], self.ratio[:, None] * self.weight[:, heard]
+        onward = self.places.onward
+        q, j, pull = self.values, self.slopes, self.ratio[:, None] * self.weight
         here = onward_slopes @ self.moved.T + onward @ (pull * (q - self.moved @ j.T)).T
         loose = onward_slopes - onward @ (pull[:, :, None] * j)
         of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)
@@ -95,8 +91,11 @@ def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
     """Takes  values r (N,), and slopes J (N, p) where they are."""
     q, j = places.vectors.T @ values, places.vectors.T @ slopes
     count, unit = len(values), np.eye(j.shape[1])
+    # by the other eigenvectors values are noise alone, and count once: of them the sums are enough
+    silent = slopes.T @ slopes - j.T @ j, slopes.T @ values - j.T @ q, values @ values - q @ q
     weight = 1 / (1 + RATIOS[:, None] * places.strength)
-    products, pull, power = j.T @ (weight[:, :, None] * j), (weight * q) @ j, weight @ q**2
+    products = (j.T @ (weight[:, :, None] * j)) + silent[0]
+    pull, power = (weight * q) @ j + silent[1], np.maximum(weight @ q**2 + silent[2], 0.0)
     noise = np.maximum(power / count, LEAST_NOISE)
     for _ in range(ROUNDS):
         moved = _solved(products + noise[:, None, None] * unit, pull)
