@@ -10,6 +10,8 @@ them are what a surface cannot have. The coefficients bend as little as generali
 Source: ours; Rusinkiewicz 1998 for the angles, Craven and Wahba 1979 for the cross-validation.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from ..numerics import bsplines
@@ -56,6 +58,7 @@ def around(geom: Geometry, multiple: int) -> np.ndarray:
     return size ** min(multiple, 2) * np.cos(multiple * np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
+@lru_cache(maxsize=8)
 def _penalty(harmonics: int) -> np.ndarray:
     """Squared second differences along u and along θd."""
     along_u, along_d = (bsplines.bends(count) for count in (TILTS, DIFFERENCES))
@@ -107,9 +110,9 @@ class _Spectrum:
         normal = self.weighed.T @ columns
         lower = np.linalg.cholesky(normal + RIDGE * np.eye(len(normal)))
         penalty = _penalty(columns.shape[1] // (TILTS * DIFFERENCES))
-        half = np.linalg.solve(lower, penalty)
-        self.bent, vectors = np.linalg.eigh(np.linalg.solve(lower, half.T))
-        self.back = np.linalg.solve(lower.T, vectors)
+        inverse = np.linalg.inv(lower)
+        self.bent, vectors = np.linalg.eigh(inverse @ penalty @ inverse.T)
+        self.back = inverse.T @ vectors
 
     def fit(self, ln):
         """Coefficients, the mean that they are about, how many they are in effect, stiffness and cross-validation."""

@@ -171,7 +171,9 @@ def thinned(measurement: Measurement) -> Measurement:
 
 def thinned_surface(fit: Fit) -> Surface:
     """The fitted surface in the channels that `thinned` leaves of a measurement."""
-    return fit.surface.of_channels(few_channels(len(fit.surface.channels)))
+    surface = fit.surface
+    channels = few_channels(len(surface.channels))
+    return surface if len(channels) == len(surface.channels) else surface.of_channels(channels)
 
 
 @dataclass(frozen=True, eq=False)

@@ -146,10 +146,12 @@ def _of_the_form(data: Measurement, looked: _Looked, counted, scale: float) -> t
     _, worst, free = max(apart, key=lambda each: each[0])
     of_model = factored.fit_factors(columns, looked.ln[:, [worst]] + looked.residuals[:, [worst]], counted, free)
     share = np.minimum(*(1 - each.albedo[0] / (pi * each.at(columns)[:, 0]) for each in (free, of_model)))
-    return looked.together(np.sqrt(squares)), _most_unlike(data, free, of_model, share**2)
+    return looked.together(np.sqrt(squares)), _most_unlike(columns, data, free, of_model, share**2)
 
 
-def _most_unlike(data: Measurement, free: factored.Factors, of_model: factored.Factors, share) -> Unlike | None:
+def _most_unlike(
+    columns: factored.Columns, data: Measurement, free: factored.Factors, of_model: factored.Factors, share
+) -> Unlike | None:
     """Of lobe, Fresnel's factor and masking the one whose ratio to the model's varies most over the data; each
     direction counts by the squared share of the lobe in it. None where no direction holds a lobe, and where factors
     only stand in for each other.
@@ -157,17 +159,12 @@ def _most_unlike(data: Measurement, free: factored.Factors, of_model: factored.F
     if not np.sum(share) > 0:
         return None
     geom = data.geom
-    tan_h = np.sqrt(np.ravel(geom.tan2_h))
-    tilt, difference = np.arctan(tan_h), np.arccos(np.minimum(np.ravel(geom.cos_d), 1.0))
+    tilt, difference = np.arctan(np.sqrt(np.ravel(geom.tan2_h))), np.arccos(np.minimum(np.ravel(geom.cos_d), 1.0))
     theta_i, theta_r = np.radians(np.ravel(geom.theta_i_deg)), np.radians(np.ravel(geom.theta_r_deg))
-
-    def of_angle(theta):
-        return free.ln_of_angle(theta) - of_model.ln_of_angle(theta)
-
     ratios = [
-        free.ln_of_tilt(tan_h) - of_model.ln_of_tilt(tan_h),
-        (free.ln_of_difference(difference) - of_model.ln_of_difference(difference))[:, 0],
-        of_angle(theta_i) + of_angle(theta_r),
+        columns.tilt @ (free.tilt - of_model.tilt),
+        columns.difference @ (free.difference - of_model.difference)[:, 0],
+        columns.angle @ (free.angle - of_model.angle),
     ]
     # in the plane θi² + θr² = 2 (θh² + θd²), so that a square may stand in either
     squares = [2 * tilt**2, 2 * difference**2, -(theta_i**2 + theta_r**2)]

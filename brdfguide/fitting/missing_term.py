@@ -12,6 +12,7 @@ Source: the score test, Rao 1948, "Large sample tests of statistical hypotheses"
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -162,9 +163,7 @@ def _shapes(surface: Surface, few: Measurement, model: np.ndarray) -> Iterator[t
     """(kind, t) of every term that may be missing, in several widths."""
 
     def of(expression: str, **values) -> np.ndarray:
-        sum_of = models.get(expression)
-        given = {**sum_of.defaults(), **sum_of.qualified(values)}
-        alone = Surface(sum_of, given, few.channels, few.geom.wavelength)
+        alone = Surface(*_term(expression, *values.items()), few.channels, few.geom.wavelength)
         return reading(alone, few.instrument)[:, 0] / model
 
     has = {term.model.name for term in surface.model.terms}
@@ -189,6 +188,13 @@ def _shapes(surface: Surface, few: Measurement, model: np.ndarray) -> Iterator[t
         lobes = 1 - sum((reading(each, few.instrument)[:, 0] for each in bodies), np.zeros(len(model))) / model
         for shape in _second_axis(few.geom, width):
             yield "second axis", shape * lobes
+
+
+@lru_cache(maxsize=64)  # of one file they are those of the next
+def _term(expression: str, *values: tuple[str, float]) -> tuple[Composite, dict]:
+    """A law with these values and its own for the others."""
+    sum_of = models.get(expression)
+    return sum_of, {**sum_of.defaults(), **sum_of.qualified(dict(values))}
 
 
 def _width(model: Composite, surface: Surface) -> float | None:

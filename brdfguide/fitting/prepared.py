@@ -1,6 +1,7 @@
 """A measurement made ready for many fits: which directions and channels each stage of a fit looks at, chosen once."""
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -151,6 +152,9 @@ def expecting(measurement: Measurement, error: float) -> Measurement:
     return measurement if noise is None else replace(measurement, noise=noise.missing(error))
 
 
+@lru_cache(maxsize=64)
 def few_channels(count: int) -> np.ndarray:
-    """Numbers of at most four channels, spread over the spectrum."""
-    return np.unique(np.linspace(0, count - 1, min(count, SEARCH_CHANNELS)).round().astype(int))
+    """Numbers of at most four channels, spread over the spectrum; not to be changed."""
+    channels = np.unique(np.linspace(0, count - 1, min(count, SEARCH_CHANNELS)).round().astype(int))
+    channels.flags.writeable = False
+    return channels

@@ -163,6 +163,11 @@ class _Counted(np.ndarray):
 
     def __array_ufunc__(self, ufunc, method, *inputs, out=None, **options):
         bare = [each.view(np.ndarray) if type(each) is _Counted else each for each in inputs]
+        if not options and out is None and method == "__call__" and ufunc.signature is None:  # most calls by far
+            result = ufunc(*bare)
+            size = np.size(result[0]) if isinstance(result, tuple) else result.size
+            _TALLY.get()[GROUP_OF.get(ufunc.__name__, "simple")] += size
+            return result.view(_Counted) if isinstance(result, np.ndarray) else result
         for name, value in options.items():
             options[name] = _bare(value)
         if out is not None:

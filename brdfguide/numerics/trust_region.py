@@ -21,6 +21,7 @@ POOR = 0.25  # share of the promised gain up to which the radius is halved (Mor�
 # from which it is three times the step (Moré 1978; three is ours: of the 480 fits tried the fewest end worse)
 GOOD = 0.75
 LOOSE = 0.1  # a step within so much of the radius is as long as the radius (Moré 1978)
+MANY = 16  # numbers of a single channel, from which all are solved for at once: inverses of blocks cost more
 TURNS = 10  # at most, to find the damping; one or two are common
 
 
@@ -147,8 +148,31 @@ class _Factors(NamedTuple):
         return np.concatenate((step, per_channel_step.ravel()))
 
 
-def _factors(equations: Normal, damping: float) -> _Factors:
+class _Whole(NamedTuple):
+    """The same of one channel with many numbers, as one matrix."""
+
+    matrix: np.ndarray
+
+    def solve(self, row: ParameterRow, right):
+        """The parameters that the equations take to `right`."""
+        try:
+            found = np.linalg.solve(self.matrix, right)
+            if not np.isfinite(found).all():
+                raise np.linalg.LinAlgError
+        except np.linalg.LinAlgError:
+            found = np.linalg.pinv(self.matrix, hermitian=True) @ right
+        return found
+
+
+def _factors(equations: Normal, damping: float) -> "_Factors | _Whole":
     """The equations with a damping on their diagonal, each channel's own parameters eliminated."""
+    count = len(equations.shared)
+    if len(equations.per_channel) == 1 and count + equations.per_channel.shape[1] >= MANY:
+        matrix = np.empty(2 * (count + equations.per_channel.shape[1],))
+        matrix[:count, :count], matrix[count:, count:] = equations.shared, equations.per_channel[0]
+        matrix[:count, count:], matrix[count:, :count] = equations.between[0], equations.between[0].T
+        matrix.reshape(-1)[:: len(matrix) + 1] += damping
+        return _Whole(matrix)
     inverse_per_channel = _inverse(_damped(equations.per_channel, damping))
     coupling = equations.between @ inverse_per_channel
     reduced = _damped(equations.shared, damping) - (coupling @ np.swapaxes(equations.between, 1, 2)).sum(0)
