@@ -13,7 +13,7 @@ from ..records import dataclass
 from . import starting_grid
 from .fit_options import FitOptions
 from .followed import End, Following, follow
-from .layout import Layout
+from .layout import Layout, layout_of
 from .objective import Misfit, metric
 from .prepared import Prepared
 
@@ -47,13 +47,15 @@ class Search:
 def _with_options(model: Composite, options: FitOptions) -> Composite:
     """The sum with those of the user's fixed and start values that it has; `fit_all` refuses a name that none has."""
     fixed, start = _its(model, options.fixed), _its(model, options.start)
+    if not (fixed or start):
+        return model
     free = tuple(key for key in model.free if key not in fixed)
     return replace(model, fixed={**model.fixed, **fixed}, start={**model.start, **start}, free=free)
 
 
 def free_count(model: Composite, channels: int, options: FitOptions) -> int:
     """How many numbers a fit of the sum searches for."""
-    return Layout(_with_options(model, options), channels, options.shape_per_channel).count
+    return layout_of(_with_options(model, options), channels, options.shape_per_channel).count
 
 
 def _its(model: Composite, wanted: Mapping[str, float]) -> dict[str, float]:
@@ -159,8 +161,8 @@ def _best_first(misfit: Misfit, ends: Iterable[End]) -> list:
 
 def _begin(model: Composite, data: Prepared, options: FitOptions, given: Given) -> _Begun:
     began, few = perf_counter(), data.search.measurement
-    layout = Layout(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
-    narrow = replace(layout, channels=few.brdf.shape[1]).walking()
+    layout = layout_of(_with_options(model, options), data.settle.weights.shape[1], options.shape_per_channel)
+    narrow = layout_of(layout.model, few.brdf.shape[1], layout.shape_per_channel).walking()
     misfit = data.search.misfit(narrow, metric(options.metric))
     if has_edge(narrow.model) and not given.starts:
         held = search(without_edge(narrow.model), data, options)

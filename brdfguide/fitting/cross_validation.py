@@ -22,7 +22,7 @@ from . import starting_grid
 from .choosing import recommending
 from .fit import Fit, FitOptions
 from .followed import End, Following, follow
-from .layout import Layout
+from .layout import layout_of
 from .objective import SMALLEST, Misfit, metric
 from .prepared import few_channels
 from .ranked import HeldOut, Ranking
@@ -55,7 +55,7 @@ def held_out_from(
     folds = _divided(used)
     kept, followings = np.array([fold.kept for fold in folds]), []
     for model, values in models:
-        layout = Layout(model, used.brdf.shape[1], options.shape_per_channel)
+        layout = layout_of(model, used.brdf.shape[1], options.shape_per_channel)
         misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
         followings.append(Following(misfit, [layout.encode(values)] * len(folds), kept))
     found = follow(followings, 1e-4, 20)

@@ -6,7 +6,7 @@ and in coordinates in which a fit walks well: the logarithm for widths, the valu
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -90,12 +90,20 @@ class Layout:
         return len(self.shared) + self.channels * len(self.per_channel)
 
     def bounds(self, keys) -> tuple[np.ndarray, np.ndarray]:
-        low, high = coordinate_bounds([self.parameters[key] for key in keys])
+        keys = tuple(keys)
+        if keys not in self._bounds:
+            self._bounds[keys] = coordinate_bounds([self.parameters[key] for key in keys])
+        low, high = (each.copy() for each in self._bounds[keys])
         for _, of_grain in self.grains if self.walks else ():
             for key, least, most in zip(of_grain, *grain_walk.walk_bounds(), strict=True):
                 if key in keys:
                     low[keys.index(key)], high[keys.index(key)] = least, most
         return low, high
+
+    @cached_property
+    def _bounds(self) -> dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]]:
+        """Of some keys."""
+        return {}
 
     @cached_property
     def alike(self) -> list[list[str]]:
@@ -218,6 +226,12 @@ def from_coordinate(parameter: Parameter, coordinate):
     if not parameter.log:
         return coordinate
     return _inside(parameter, parameter.origin + np.exp(coordinate))
+
+
+@lru_cache(maxsize=512)
+def layout_of(model: Composite, channels: int, shape_per_channel: bool = False) -> Layout:
+    """The layout of a sum, with what was formed of it for the last measurement."""
+    return Layout(model, channels, shape_per_channel)
 
 
 class _FromCoordinates:

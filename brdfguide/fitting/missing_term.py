@@ -26,7 +26,7 @@ from ..records import dataclass
 from .cross_validation import thinned
 from .diagnostics import standard_errors
 from .fit import Fit
-from .layout import Layout
+from .layout import layout_of
 from .objective import SMALLEST
 from .reading import reading, with_slopes
 
@@ -151,7 +151,7 @@ def _named(shares: dict[str, float], count: float) -> MissingTerm | None:
 
 def _tangents(surface: Surface, few: Measurement, model: np.ndarray) -> np.ndarray:
     """Orthonormal columns that span ∂ ln f/∂u and a constant, (samples, parameters + 1)."""
-    layout = Layout(surface.model, 1)
+    layout = layout_of(surface.model, 1)
     _, slopes = with_slopes(layout, surface, few.instrument)
     columns = [slopes[key][:, 0] / model for key in (*layout.shared, *layout.per_channel)]
     finite = [column / max(float(np.linalg.norm(column)), 1e-300) for column in columns]

@@ -25,7 +25,7 @@ from . import starting_grid
 from .cross_validation import thinned_surface
 from .fit import Fit
 from .goniometer import hemisphere
-from .layout import Layout
+from .layout import layout_of
 from .ln_slopes import ln_with_slopes
 from .objective import SMALLEST
 from .prepared import few_channels
@@ -210,13 +210,13 @@ class _Known:
 
     def weighs(self, place: int, fit: Fit) -> tuple[Weighed, ...]:
         """What the values say of the law at this place, by channel."""
-        _, slopes = ln_with_slopes(Layout(fit.model, len(self.channels)), thinned_surface(fit), self.inside)
+        _, slopes = ln_with_slopes(layout_of(fit.model, len(self.channels)), thinned_surface(fit), self.inside)
         left = self.left[place]
         return tuple(weighed(self.places, left[:, c], slopes[:, c]) for c in range(len(self.channels)))
 
     def foretells(self, fit: Fit, known: tuple[Weighed, ...]) -> _Said:
         """What a law says outside, and what it misses there."""
-        ln, onward = ln_with_slopes(Layout(fit.model, len(self.channels)), thinned_surface(fit), self.there)
+        ln, onward = ln_with_slopes(layout_of(fit.model, len(self.channels)), thinned_surface(fit), self.there)
         return _Said(ln, tuple(each.elsewhere(onward[:, c]) for c, each in enumerate(known)))
 
     def ln_of(self, fit: Fit, said: _Said, there: Instrument) -> np.ndarray:

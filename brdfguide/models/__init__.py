@@ -44,6 +44,7 @@ def every() -> tuple[Model, ...]:
     return tuple(catalog.load("models", name).MODEL for name in names())
 
 
+@lru_cache(maxsize=256)  # what is formed of a sum is there for the next file's
 def get(expression: str) -> Composite:
     """The sum that `lambertian+lafortune:2` names.
 

@@ -233,6 +233,7 @@ def heights(model: Composite) -> list[str]:
     return [term.height for term in model.terms if term.height and laws.count(term.model) == 1]
 
 
+@lru_cache(maxsize=256)
 def candidate_label(model: Composite) -> str:
     """The name a candidate is shown under: `ggx (metal)` where k is what is fitted, `ggx (metal, edge free)` where n is
     too, `ggx (height free)` where a lobe that stands alone has an amplitude beside Fresnel's factor.
@@ -244,6 +245,7 @@ def candidate_label(model: Composite) -> str:
     return model.name + (f" ({', '.join(notes)})" if notes else "")
 
 
+@lru_cache(maxsize=256)
 def named(label: str, *, metal: bool = False) -> Composite:
     """The candidate that is shown under this name; a `metal` also where the name does not say so.
 
