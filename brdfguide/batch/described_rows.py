@@ -8,7 +8,7 @@ import numpy as np
 
 from ..fitting import saved
 from ..fitting.appearance import lobe_width_deg
-from ..models.looks import lightness_shown, turns
+from ..models.looks import instrument_reading, mixture, turns
 from ..models.surface import Surface
 from ..physics import fresnel, gloss, seen
 from ..physics.aperture import Instrument
@@ -27,7 +27,7 @@ def described_row(document: dict) -> tuple[dict[str, Any], np.ndarray]:
     best = next(each for each in document["ranking"] if each["candidate"] == document["recommended"])
     small = _recommended_alone(document, best)
     surface = saved.surface_in(json.dumps(small).encode(), "answer")
-    shown = look_vector(surface)
+    shown, doubt = _shown_with_doubt(surface, best)
     albedo = _albedo(best, surface)
     kind, stored, nan = document.get("kind") or {}, document.get("stored") or {}, [None] * 3
     glosses = _glosses(surface)
@@ -47,7 +47,7 @@ def described_row(document: dict) -> tuple[dict[str, Any], np.ndarray]:
         "f0": _f0(best),
         "albedo": None if albedo is None else float(np.mean(albedo)),
         "alpha_equivalent": _alpha(best, surface),
-        "doubt": _doubt(surface, best, shown),
+        "doubt": doubt,
         "turns": int(turns(surface)),
         "surface": json.dumps(small),
     }
@@ -80,22 +80,47 @@ def _recommended_alone(document: dict, best: dict) -> dict:
 
 def look_vector(surface: Surface) -> np.ndarray:
     """How a surface looks at the directions of LOOKS: (directions, colours) [L*], float32."""
-    return lightness_shown(surface, Instrument(seen.sphere(LOOKS).geom)).astype(np.float32)
+    return _look_vectors([surface])[0]
 
 
-def _doubt(surface: Surface, best: dict, shown: np.ndarray) -> float | None:
-    """How far the surface's look moves with one standard error of each parameter, taken as independent [L*]."""
-    weights, squares = seen.sphere(LOOKS).weights, 0.0
+def _look_vectors(surfaces: list[Surface]) -> np.ndarray:
+    """The same of surfaces with one model and channels, from one call of it: (surfaces, directions, colours)."""
+    first, there = surfaces[0], Instrument(seen.sphere(LOOKS).geom)
+    reading = instrument_reading(_side_by_side(surfaces), there)
+    each = reading.reshape(len(reading), len(surfaces), len(first.channels)).transpose(1, 0, 2)
+    return seen.lightness(each @ mixture(first), there.geom.cos_i).astype(np.float32)
+
+
+def _side_by_side(surfaces: list[Surface]) -> Surface:
+    """One surface with the channels of all; what is the same number in all stays one."""
+    if len(surfaces) == 1:
+        return surfaces[0]
+    first, count = surfaces[0], len(surfaces)
+
+    def joined(key: str):
+        values = [each.values[key] for each in surfaces]
+        if np.ndim(values[0]) == 0 and all(value == values[0] for value in values):
+            return values[0]
+        return np.concatenate([np.full(len(first.channels), value) for value in values])
+
+    values = {key: joined(key) for key in first.values}
+    return Surface(first.model, values, first.channels * count, np.tile(first.wavelengths, count))
+
+
+def _shown_with_doubt(surface: Surface, best: dict) -> tuple[np.ndarray, float | None]:
+    """How it looks, and how far that moves with one standard error of each parameter, taken as independent [L*]."""
+    moved = []
     for name, value in best["parameters"].items():
         if value["stderr"] is None or name not in surface.model.parameters:
             continue
         parameter = surface.model.parameters[name]
         errors = np.array([each or 0.0 for each in each_of(value["stderr"])], float)
         low, high = parameter.outside(parameter.least), parameter.outside(parameter.high)
-        moved = parameter.inside(np.clip(np.array(each_of(value["value"]), float) + errors, low, high))
-        changed = surface.with_value(name, moved if np.size(moved) > 1 else float(np.ravel(moved)[0]))
-        squares += seen.apart(look_vector(changed), shown, weights) ** 2
-    return _finite(np.sqrt(squares))
+        there = parameter.inside(np.clip(np.array(each_of(value["value"]), float) + errors, low, high))
+        moved.append(surface.with_value(name, there if np.size(there) > 1 else float(np.ravel(there)[0])))
+    shown, *changed = _look_vectors([surface, *moved])
+    weights = seen.sphere(LOOKS).weights
+    return shown, _finite(np.sqrt(sum(seen.apart(each, shown, weights) ** 2 for each in changed)))
 
 
 def _albedo(best: dict, surface: Surface) -> list[float] | None:

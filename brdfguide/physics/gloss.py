@@ -33,6 +33,7 @@ QUICK = 2, 11  # nodes over the lamp and the receptor, good to 1 unit
 REPEATS = (1.0, 0.015)
 
 
+@lru_cache(maxsize=8)
 def black_glass(angle: int) -> float:
     """Fresnel reflectance of the black glass at the instrument's angle."""
     return float(fresnel(cos(radians(angle)), STANDARD_N))
