@@ -100,6 +100,8 @@ class Surface:
 
     def of_channels(self, places: Sequence[int] | np.ndarray) -> "Surface":
         """Some of the channels, by their numbers."""
+        if len(self.channels) == 1 == len(places) and np.shape(self.wavelength) == (1,):
+            return self
 
         def spread(value):
             return np.broadcast_to(value, (len(self.channels),))[places]
