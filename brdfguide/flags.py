@@ -69,6 +69,7 @@ READING = {
     "below-horizon": Flag("Directions at or below the horizon were dropped."),
     "blocked-retro-zone": Flag("Zeros around the source: the lamp stood in the detector's way."),
     "blocks-skipped": Flag("Blocks of transmission or of the back side were skipped."),
+    "absent-chunks": Flag("Chunks of a zarr array that are not there were read as its fill value.", WARNING),
     "bytes-behind": Flag("Bytes behind the last member of a compressed file were left out.", WARNING),
     "calibrated-mirror-side": Flag("The header's calibration says on which side the mirror direction lies."),
     "column-unnamed": Flag("The rows hold one column more than the header names.", option="--columns"),
@@ -114,9 +115,7 @@ READING = {
     "reflected-columns": Flag("The columns are angles of the detector.", option="--columns"),
     "repeated-rows": Flag("Rows that repeat a direction and wavelength were kept as measurements of their own."),
     "repeats-differ": Flag(
-        "Rows of one direction have different values: something tells them apart.",
-        WARNING,
-        effect=Effect.OF_REPEATS,
+        "Rows of one direction have different values: something tells them apart.", WARNING, effect=Effect.OF_REPEATS
     ),
     "receiver-solid-angle": Flag("The detector's solid angle, as the file states it.", option="--aperture-deg"),
     "relative-scale": Flag("The level of the values is relative: they are not 1/sr.", WARNING, "--scale"),

@@ -9,12 +9,14 @@ Source: Eaton and others, NetCDF Climate and Forecast (CF) Metadata Conventions 
 
 import re
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ...errors import NothingLeft
+from ...finding import Finding
 from ...records import dataclass
 from ..measurement import Measurement
 from . import _groups, _meaning
@@ -25,7 +27,7 @@ from .format import Options, Source
 MOST_CELLS = 50_000_000  # read at once
 LARGEST_CELLS = 8_000_000  # beyond, a fit reads it in pieces
 TOGETHER = 65_536  # rows of a piece
-MOST_SWELLING = 1000  # of the file: what repeating numbers shrink to
+MOST_SWELLING = 1000  # of what the file keeps of a table: what repeating numbers shrink to
 DEEPEST = 8  # groups within groups
 MOST_ARRAYS = 10_000
 MOST_NOTES = 100  # attributes of one group
@@ -49,6 +51,7 @@ class ArrayTable:
     shape: tuple[int, int]
     chunk: int  # rows that the file keeps together
     comments: tuple[str, ...]
+    arrays: tuple[Any, ...]
 
     def sheet(self, source: Source, rows: slice) -> Sheet:
         """Some of its rows. Raises InputError where they are damaged, or hold neither numbers nor words."""
@@ -72,7 +75,7 @@ def is_large(tables: list[ArrayTable]) -> bool:
 def read_table(source: Source, tables: list[ArrayTable], options: Options) -> Measurement:
     """Raises InputError where there is no table or none chosen of several, and as tables of text do."""
     table, rest = chosen(source, tables, options)
-    return _meaning.measurement_of(source, _whole(source, table), rest, kind=table.kind)
+    return _meaning.measurement_of(source, _whole(source, table), rest, kind=table.kind).noting(*_absent(source, table))
 
 
 def groups_of(source: Source, tables: list[ArrayTable], options: Options, column: str) -> tuple[str, ...]:
@@ -85,11 +88,28 @@ def groups_of(source: Source, tables: list[ArrayTable], options: Options, column
 def parts_of(source: Source, tables: list[ArrayTable], options: Options) -> Iterator[Measurement]:
     """The same as `read_table` gives, in pieces. Raises InputError as it does."""
     table, rest = chosen(source, tables, options)
+    notes = _absent(source, table)
     for rows in table.pieces():
         try:
-            yield _meaning.measurement_of(source, table.sheet(source, rows), rest, kind=table.kind)
+            yield _meaning.measurement_of(source, table.sheet(source, rows), rest, kind=table.kind).noting(*notes)
         except NothingLeft:
             continue
+
+
+def _absent(source: Source, table: ArrayTable) -> tuple[Finding, ...]:
+    """The note on chunks of zarr arrays that are not there, of which some are: written as nothing, or lost."""
+    counts = []
+    with damage_told(source, table.kind):
+        for each in table.arrays:
+            there, of = getattr(each, "nchunks_initialized", 0), getattr(each, "nchunks", 0)
+            if 0 < there < of:
+                counts.append((of - there, of, each.path.rpartition("/")[2], each.fill_value))
+    if not counts:
+        return ()
+    told = ", ".join(f"{absent} of {of} of '{name[:40]}'" for absent, of, name, _ in counts[:5])
+    fill = ", ".join(sorted({str(fill) for *_, fill in counts}))[:40]
+    text = f"chunks that are not there were read as the fill value {fill}: {told}; they were never written, or are lost"
+    return (Finding("absent-chunks", text, "warning", numbers=(("chunks", sum(each[0] for each in counts)),)),)
 
 
 def _whole(source: Source, table: ArrayTable) -> Sheet:
@@ -116,11 +136,11 @@ def chosen(source: Source, tables: list[ArrayTable], options: Options) -> tuple[
 
 
 def tables_in(
-    source: Source, kind: str, root, members: Callable[[Any], Mapping[str, Any]], size: int
+    source: Source, kind: str, root, members: Callable[[Any], Mapping[str, Any]], stored: Callable[[Any], int]
 ) -> list[ArrayTable]:
     """Every table of a file, in the order of their places. Raises InputError where there is none, or a damaged one.
 
-    Takes  members (group) -> what is in it by name; size, bytes of the file.
+    Takes  members (group) -> what is in it by name; stored (array) -> bytes of the file that it takes.
     """
     found: list[ArrayTable] = []
     seen: list[str] = []
@@ -130,10 +150,12 @@ def tables_in(
         there = ", ".join(seen)[:160] or "nothing"
         raise source.error(f"found {there}; {WANTED}")
     for table in found:
+        with damage_told(source, kind):
+            size = sum(map(stored, table.arrays))
         if np.prod(table.shape, dtype=float) * 8 > 2**20 + MOST_SWELLING * size:
             raise source.error(
-                f"{table.place} promises {table.shape[0]} rows of {table.shape[1]} columns in {size} bytes, more than "
-                f"such a file can honestly hold"
+                f"{table.place} promises {table.shape[0]} rows of {table.shape[1]} columns in {size} bytes, more "
+                f"than such a file can honestly hold"
             )
     return found
 
@@ -146,9 +168,11 @@ def _look(source: Source, kind: str, node, place: str, members, found: list[Arra
         inside = members(node)
         arrays = {name: each for name, each in inside.items() if hasattr(each, "shape")}
         groups = {name: each for name, each in inside.items() if not hasattr(each, "shape")}
-    seen += [f"{place.rstrip('/')}/{name} {tuple(each.shape)}" for name, each in arrays.items()]
+    seen += [f"{place.rstrip('/')}/{name} {tuple(each.shape or ())}" for name, each in arrays.items()]
+    seen += [f"{place.rstrip('/')}/{name}/" for name in groups]
     if len(seen) > MOST_ARRAYS:
-        raise source.error(f"more than {MOST_ARRAYS} arrays in it; {WANTED}")
+        raise source.error(f"more than {MOST_ARRAYS} arrays and groups in it; {WANTED}")
+    arrays = {name: each for name, each in arrays.items() if each.shape}
     columns = {name: each for name, each in arrays.items() if len(each.shape) == 1}
     if len(columns) > 1:
         found.append(_of_columns(source, kind, node, place, columns))
@@ -189,6 +213,7 @@ def _of_columns(source: Source, kind: str, group, place: str, columns: dict) -> 
         (lengths[first], len(arrays)),
         max(_chunk(each) for each in arrays),
         _comments(group),
+        tuple(arrays),
     )
 
 
@@ -203,10 +228,11 @@ def _of_rows(source: Source, kind: str, array, place: str, names: list[str]) -> 
         kind,
         place,
         names,
-        lambda picked: list(np.transpose(_numbers(array, array[picked]))),
+        lambda picked: [_cells(array, column) for column in np.moveaxis(np.asarray(array[picked]), 1, 0)],
         (rows, columns),
         _chunk(array),
         _comments(array),
+        (array,),
     )
 
 
@@ -227,26 +253,28 @@ def sorted_names(names) -> list[str]:
 def _names_in(node) -> list[str]:
     """The columns that an attribute names: a list of words, or one text of them with commas between."""
     for key in NAMING:
-        if key in node.attrs:
-            value = node.attrs[key]
+        if _text(value := node.attrs.get(key)):
             words = list(value) if np.ndim(value) else _text(value).split(",")
             return [_text(word).strip() for word in words]
     return []
 
 
 def _text(value) -> str:
+    """A word or a number as text, nothing as none."""
+    if value is None or getattr(value, "shape", ()) is None:
+        return ""
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
 def _with_unit(name: str, array) -> str:
-    unit = _text(array.attrs["units"]).strip() if "units" in array.attrs else ""
+    unit = _text(array.attrs.get("units", "")).strip()
     return f"{name} ({unit})" if unit and unit != "1" else name
 
 
 def _comments(node) -> tuple[str, ...]:
     """Attributes that are one word or number, as `name: value`."""
     found = []
-    for name in list(node.attrs)[:MOST_NOTES]:
+    for name in [each for each in node.attrs if isinstance(each, str)][:MOST_NOTES]:
         value = node.attrs[name]
         if not name.startswith("_") and name not in NAMING and not np.ndim(value) and np.size(value) == 1:
             found += [f"{name}: {line}" for line in _text(value)[:1000].splitlines()]
@@ -254,8 +282,8 @@ def _comments(node) -> tuple[str, ...]:
 
 
 def _cells(array, values) -> Any:
-    """A 1-D array's numbers, or its cells where they are words."""
-    if np.asarray(values).dtype.kind in "fiub":
+    """A column's numbers, or its cells where they are words or something else."""
+    if np.ndim(values) == 1 and np.asarray(values).dtype.kind in "fiub":
         return _numbers(array, values)
     return [_text(each) if isinstance(each, (bytes, str)) else each for each in np.asarray(values).tolist()]
 
@@ -264,7 +292,17 @@ def _numbers(array, values) -> np.ndarray:
     """As the attributes say: missing where it is the mark for that, and unpacked."""
     values = np.asarray(values)
     numbers = values.astype(float)
-    for mark in (array.attrs[key] for key in ("_FillValue", "missing_value") if key in array.attrs):
-        numbers[values == np.ravel(mark)[0]] = np.nan
-    scale, offset = (np.ravel(array.attrs.get(key, neutral))[0] for key, neutral in PACKED)
-    return numbers if (scale, offset) == (1, 0) else numbers * float(scale) + float(offset)
+    for key in ("_FillValue", "missing_value"):
+        for mark in np.ravel(array.attrs.get(key, [])):
+            numbers[values == mark] = np.nan
+    scale, offset = (_real(key, array.attrs.get(key, neutral)) for key, neutral in PACKED)
+    return numbers if (scale, offset) == (1, 0) else numbers * scale + offset
+
+
+def _real(key: str, value) -> float:
+    """An attribute that is one number. Raises ValueError."""
+    first = np.ravel(value)[:1].tolist()
+    with suppress(TypeError, ValueError):
+        if np.isfinite(found := float(*first)) and first:
+            return found
+    raise ValueError(f"found {key} {_text(value)[:40]!r}, wanted a finite number")

@@ -5,7 +5,7 @@ from importlib import import_module
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import BrdfguideError, InputError
 from ._sheet import Sheet
 from .format import Source
 
@@ -21,12 +21,12 @@ def library(name: str, extra: str, source: Source, what: str):
 
 @contextmanager
 def damage_told(source: Source, what: str):
-    """A library's own errors about a file, which are of these, as a sentence."""
+    """A library's own errors about a file as a sentence."""
     try:
         yield
-    except InputError:
+    except (BrdfguideError, MemoryError, Warning):
         raise
-    except (OSError, ValueError, ArithmeticError, LookupError, TypeError, RuntimeError, AttributeError) as error:
+    except Exception as error:  # zlib.error, LZMAError, EOFError: each codec has its own
         raise source.error(f"a damaged {what}: {' '.join(str(error).split())[:100]}") from None
 
 

@@ -46,12 +46,15 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     with damage_told(source, KIND):
         content = _Content(source)
         root = h5py.File(io.BufferedReader(content), "r")
-    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), content.size)
+    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), _stored)
 
 
 def _members(source: Source, h5py, group) -> dict:
     """Datasets and groups by name, in the order in which they were made where the file says it."""
     names = list(group)
+    for name in names:
+        if isinstance(name, bytes):
+            raise source.error(f"the name {str(name)[1:42]} in it is not UTF-8; wanted names that are")
     if not group.id.get_create_plist().get_link_creation_order():
         names = _named_arrays.sorted_names(names)
     found = {}
@@ -68,11 +71,16 @@ def _members(source: Source, h5py, group) -> dict:
     return found
 
 
+def _stored(dataset) -> int:
+    """Bytes of the file that a dataset takes."""
+    return dataset.id.get_storage_size()
+
+
 class _Words:
     """A dataset of words, whose cells are text."""
 
     def __init__(self, dataset):
-        self.shape, self.attrs, self.chunks = dataset.shape, dataset.attrs, dataset.chunks
+        self.shape, self.attrs, self.chunks, self.id = dataset.shape, dataset.attrs, dataset.chunks, dataset.id
         self.text = dataset.asstr("utf-8", "replace")
 
     def __getitem__(self, rows: slice):

@@ -1,6 +1,8 @@
 """zarr: a folder with a group of 1-D arrays named as columns, or a 2-D array whose attribute names them. Needs zarr."""
 
 from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
 
 from ...opening import ARRAY_FOLDER
 from ..measurement import Measurement
@@ -39,15 +41,19 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     zarr = library("zarr", "zarr", source, "a zarr folder")
     if source.place is None:
         raise source.error("a zarr folder is read where it lies, not from a stream")
-    size = sum(each.stat().st_size for each in source.place.rglob("*"))
     with damage_told(source, KIND):
-        root = zarr.open(str(source.place), mode="r")
-    return _named_arrays.tables_in(source, KIND, root, _members, size)
+        root = zarr.open(str(source.place), mode="r", use_consolidated=False)  # what is there, not what a list says
+    return _named_arrays.tables_in(source, KIND, root, _members, partial(_stored, source.place))
 
 
 def _members(group) -> dict:
     found = dict(group.members())
     return {name: found[name] for name in _named_arrays.sorted_names(found)}
+
+
+def _stored(folder: Path, array) -> int:
+    """Bytes of the files that hold an array."""
+    return sum(each.stat().st_size for each in (folder / array.path).rglob("*"))
 
 
 FORMAT = Format(

@@ -1,0 +1,105 @@
+"""HDF5 and zarr that no honest program writes: a sentence each, and nothing read that is not there."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+
+from brdfguide.data import formats
+from brdfguide.data.blocks import joined
+from brdfguide.data.formats import _named_arrays
+from brdfguide.errors import InputError
+from tests.data.formats.test_named_arrays import Hdf5, Zarr, columns, filled
+
+
+@pytest.fixture(params=[Hdf5, Zarr], ids=["hdf5", "zarr"])
+def made(request, tmp_path):
+    return request.param(tmp_path / "wall")
+
+
+def test_columns_of_what_is_no_number_are_a_sentence(made):
+    made.array("table", np.ones((9, 4)) + 1j, columns="theta_i,theta_r,phi_r,brdf")
+    path = made.done()
+    with pytest.raises(InputError, match=r"found '\(1\+1j\)', wanted a number"):
+        formats.read(path)
+
+
+@pytest.mark.parametrize(("value", "said"), [("x", "'x'"), (float("inf"), "'inf'"), ([], r"'\[\]'")])
+def test_a_scale_that_is_no_number_is_a_sentence(value, said, made):
+    content = columns(9)
+    brdf = content.pop("G")
+    path = filled(made, content).array("brdf", brdf, scale_factor=value).done()
+    with pytest.raises(InputError, match=f"found scale_factor {said}, wanted a finite number"):
+        formats.read(path, columns=("brdf=brdf",))
+
+
+def test_hdf5_with_what_few_files_have_is_read_or_a_sentence(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    made = filled(Hdf5(tmp_path / "nothing"), columns(20))
+    made.group["none"] = h5py.Empty("f8")
+    made.attributes(columns=h5py.Empty("S1"))
+    made.group["R"].attrs.update(units=h5py.Empty("S1"), missing_value=[-9.0, -8.0])
+    assert len(formats.read(made.done()).brdf) == 20
+    made = filled(Hdf5(tmp_path / "three"), columns(20))
+    made.group.create_dataset("brdf", (20,), np.dtype(("f8", (3,))))
+    with pytest.raises(InputError, match="the column 'brdf' holds no plain numbers or words"):
+        formats.read(made.done())
+    made = filled(Hdf5(tmp_path / "name"), columns(20))
+    made.group.id.links.move(b"R", made.group.id, b"R\xff")
+    with pytest.raises(InputError, match="the name 'R.*' in it is not UTF-8"):
+        formats.read(made.done())
+
+
+def test_groups_that_meet_again_and_again_are_a_sentence(tmp_path):
+    made = Hdf5(tmp_path / "fan")
+    last = made.group.create_group("end")
+    for level in range(7):
+        group = made.group.create_group(f"level{level}")
+        for each in range(15):
+            group[str(each)] = last
+        last = group
+    with pytest.raises(InputError, match="more than 10000 arrays and groups in it"):
+        formats.read(made.done())
+
+
+def test_a_promise_is_held_against_what_is_kept_of_the_table(tmp_path):
+    made = Hdf5(tmp_path / "padded")
+    for name in ("theta_i", "theta_r", "brdf"):
+        made.group.create_dataset(name, (10**8,), "f8", chunks=(10**6,))
+    made.group["cube"] = np.random.default_rng(1).uniform(size=(1, 1, 10**6))
+    with pytest.raises(InputError, match="/ promises 100000000 rows of 3 columns in 0 bytes"):
+        formats.read(made.done())
+
+
+@pytest.mark.parametrize("codec", ["zlib", "lzma"])
+def test_damage_that_a_codec_tells_in_its_own_way_is_a_sentence(codec, tmp_path):
+    made = Zarr(tmp_path / codec)
+    made.group = made.root = made.zarr.open_group(str(made.path), mode="w", zarr_format=2)
+    path = filled(made, columns(20)).done()
+    described = path / "R" / ".zarray"
+    described.write_text(json.dumps(json.loads(described.read_text()) | {"compressor": {"id": codec}}))
+    with pytest.raises(InputError, match="a damaged zarr table"):
+        formats.read(path)
+
+
+def test_zarr_is_what_is_there_and_not_what_a_list_says(tmp_path):
+    made = filled(Zarr(tmp_path / "wall"), columns(20))
+    with pytest.warns():
+        made.zarr.consolidate_metadata(str(made.path))
+    shutil.rmtree(made.path / "R")
+    with pytest.raises(InputError, match="no column for brdf"):
+        formats.read(made.done())
+
+
+def test_chunks_that_are_not_there_are_told(tmp_path, monkeypatch):
+    path = filled(Zarr(tmp_path / "wall"), columns(100), 30).done()
+    assert "absent-chunks" not in [
+        each.code for each in formats.read(path).findings
+    ]  # phi_i is zero, and never written
+    (path / "R" / "c" / "1").unlink()
+    (path / "G" / "c" / "0").unlink()
+    monkeypatch.setattr(_named_arrays, "LARGEST_CELLS", 20)
+    for measurement in (formats.read(path), joined(list(formats.in_blocks(path)))):
+        (note,) = [each for each in measurement.findings if each.code == "absent-chunks"]
+        assert note.severity == "warning" and "1 of 4 of 'R', 1 of 4 of 'G'" in note.text
