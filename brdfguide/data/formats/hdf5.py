@@ -46,45 +46,66 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     with damage_told(source, KIND):
         content = _Content(source)
         root = h5py.File(io.BufferedReader(content), "r")
-    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), _stored)
+    return _named_arrays.tables_in(source, KIND, _Node(root, h5py), partial(_members, source, h5py), _stored)
 
 
-def _members(source: Source, h5py, group) -> dict:
+def _members(source: Source, h5py, inside) -> dict:
     """Datasets and groups by name, in the order in which they were made where the file says it."""
+    group = inside.node
     names = list(group)
     for name in names:
         if isinstance(name, bytes):
             raise source.error(f"the name {str(name)[1:42]} in it is not UTF-8; wanted names that are")
     if not group.id.get_create_plist().get_link_creation_order():
         names = _named_arrays.sorted_names(names)
-    found = {}
+    found: dict[str, _Node] = {}
     for name in names:
         if not isinstance(group.get(name, getlink=True), h5py.HardLink):
             raise source.error(f"'{name[:40]}' is a link to another place or file; wanted the data themselves")
         node = group[name]
         if isinstance(node, h5py.Dataset) and (node.is_virtual or node.external):
             raise source.error(f"'{name[:40]}' keeps its numbers in other files; wanted them in this one")
-        if isinstance(node, h5py.Dataset) and h5py.check_string_dtype(node.dtype):
-            found[name] = _Words(node)
-        elif isinstance(node, (h5py.Dataset, h5py.Group)):
-            found[name] = node
+        if isinstance(node, h5py.Dataset):
+            found[name] = _Array(node, h5py)
+        elif isinstance(node, h5py.Group):
+            found[name] = _Node(node, h5py)
     return found
 
 
-def _stored(dataset) -> int:
+def _stored(array) -> int:
     """Bytes of the file that a dataset takes."""
-    return dataset.id.get_storage_size()
+    return array.node.id.get_storage_size()
 
 
-class _Words:
-    """A dataset of words, whose cells are text."""
+def _is_plain(kind, h5py) -> bool:
+    """Whether values of a type are numbers or words. Damaged ones of other types end the process when they are read."""
+    classes = (h5py.h5t.INTEGER, h5py.h5t.FLOAT, h5py.h5t.STRING, h5py.h5t.ENUM)
+    return kind.get_class() in classes
 
-    def __init__(self, dataset):
-        self.shape, self.attrs, self.chunks, self.id = dataset.shape, dataset.attrs, dataset.chunks, dataset.id
-        self.text = dataset.asstr("utf-8", "replace")
+
+class _Node:
+    """A group, or what a group and a dataset have in common: attributes that are numbers or words."""
+
+    def __init__(self, node, h5py):
+        self.node, self.attrs = node, {}
+        for name in node.attrs:
+            if isinstance(name, str) and _is_plain(node.attrs.get_id(name).get_type(), h5py):
+                self.attrs[name] = node.attrs[name]
+
+
+class _Array(_Node):
+    """A dataset, whose cells are numbers or text."""
+
+    def __init__(self, dataset, h5py):
+        super().__init__(dataset, h5py)
+        self.shape, self.chunks = dataset.shape, dataset.chunks
+        self.plain = _is_plain(dataset.id.get_type(), h5py)
+        self.words = bool(h5py.check_string_dtype(dataset.dtype))
 
     def __getitem__(self, rows: slice):
-        return self.text[rows]
+        if not self.plain:
+            raise TypeError(f"'{self.node.name[:40]}' holds {str(self.node.dtype)[:40]}, wanted numbers or words")
+        return self.node.asstr("utf-8", "replace")[rows] if self.words else self.node[rows]
 
 
 class _Content(io.RawIOBase):

@@ -21,7 +21,9 @@ def made(request, tmp_path):
 def test_columns_of_what_is_no_number_are_a_sentence(made):
     made.array("table", np.ones((9, 4)) + 1j, columns="theta_i,theta_r,phi_r,brdf")
     path = made.done()
-    with pytest.raises(InputError, match=r"found '\(1\+1j\)', wanted a number"):
+    with pytest.raises(
+        InputError, match=r"found '\(1\+1j\)', wanted a number|holds complex128, wanted numbers or words"
+    ):
         formats.read(path)
 
 
@@ -43,7 +45,7 @@ def test_hdf5_with_what_few_files_have_is_read_or_a_sentence(tmp_path):
     assert len(formats.read(made.done()).brdf) == 20
     made = filled(Hdf5(tmp_path / "three"), columns(20))
     made.group.create_dataset("brdf", (20,), np.dtype(("f8", (3,))))
-    with pytest.raises(InputError, match="the column 'brdf' holds no plain numbers or words"):
+    with pytest.raises(InputError, match="'/brdf' holds .* wanted numbers or words"):
         formats.read(made.done())
     made = filled(Hdf5(tmp_path / "name"), columns(20))
     made.group.id.links.move(b"R", made.group.id, b"R\xff")
@@ -70,6 +72,30 @@ def test_a_promise_is_held_against_what_is_kept_of_the_table(tmp_path):
     made.group["cube"] = np.random.default_rng(1).uniform(size=(1, 1, 10**6))
     with pytest.raises(InputError, match="/ promises 100000000 rows of 3 columns in 0 bytes"):
         formats.read(made.done())
+
+
+def test_types_that_end_the_process_when_damaged_are_not_read(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    made = filled(Hdf5(tmp_path / "lists"), columns(20))
+    lists = np.empty(1, object)
+    lists[0] = np.array([1.0, 2.0])
+    made.group.attrs.create("of", lists, dtype=h5py.vlen_dtype("f8"))
+    made.group.attrs["other"] = made.group.ref
+    path = made.done()
+    assert len(formats.read(path).brdf) == 20
+    with h5py.File(path, "r+") as file:
+        file.create_dataset("brdf", (20,), h5py.vlen_dtype("f8"))
+    with pytest.raises(InputError, match="'/brdf' holds object, wanted numbers or words"):
+        formats.read(path)
+
+
+def test_a_folder_in_zarr_that_lost_what_it_is_is_a_sentence(tmp_path):
+    path = filled(Zarr(tmp_path / "wall"), columns(20)).done()
+    (path / "notes.txt").write_text("a plain file is no part of it")
+    assert formats.read(path).channels == ("R", "G", "B")
+    (path / "R" / "zarr.json").unlink()
+    with pytest.raises(InputError, match="'R' in it is a folder that is neither an array nor a group"):
+        formats.read(path)
 
 
 @pytest.mark.parametrize("codec", ["zlib", "lzma"])
