@@ -5,16 +5,22 @@ Links to other files and datasets that keep their numbers in some are refused.
 
 import io
 import os
+import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from functools import partial
+from hashlib import sha256
 
 from ..measurement import Measurement
-from . import _named_arrays
+from . import _hdf5_trial, _named_arrays
 from ._tables import damage_told, library
 from .format import Format, Options, Source
 
 KIND = "HDF5 table"
 MAGIC = b"\x89HDF\r\n\x1a\n"
+REMEMBERED = 8  # files that were tried already
+_TRIED: dict[tuple, None] = {}
 
 
 def recognises(head: bytes) -> bool:
@@ -43,10 +49,35 @@ def parts(source: Source, options: Options) -> Iterator[Measurement]:
 
 def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     h5py = library("h5py", "hdf5", source, "an HDF5 file")
+    _try_beforehand(source)
     with damage_told(source, KIND):
         content = _Content(source)
         root = h5py.File(io.BufferedReader(content), "r")
     return _named_arrays.tables_in(source, KIND, _Node(root, h5py), partial(_members, source, h5py), _stored)
+
+
+def _try_beforehand(source: Source) -> None:
+    """Raises InputError for a damaged file that keeps the library busy for ever, or ends the process that reads it."""
+    key = _what_it_is(source)
+    if key in _TRIED:
+        return
+    command = [sys.executable, "-I", _hdf5_trial.__file__, "-" if source.place is None else str(source.place)]
+    held = source.data if source.place is None else None
+    ended = subprocess.run(command, input=held, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    if ended.returncode < 0:
+        endless = -ended.returncode == getattr(signal, "SIGPROF", 0)
+        what = "does not end" if endless else "ends the process that does it"
+        raise source.error(f"a damaged {KIND}: reading it {what}")
+    _TRIED[key] = None
+    while len(_TRIED) > REMEMBERED:
+        del _TRIED[next(iter(_TRIED))]
+
+
+def _what_it_is(source: Source) -> tuple:
+    if source.place is None:
+        return (sha256(source.data).digest(),)
+    found = os.stat(source.place)
+    return found.st_dev, found.st_ino, found.st_mtime_ns, found.st_size
 
 
 def _members(source: Source, h5py, inside) -> dict:

@@ -1,14 +1,16 @@
 """HDF5 and zarr that no honest program writes: a sentence each, and nothing read that is not there."""
 
+import io
 import json
 import shutil
+import signal
 
 import numpy as np
 import pytest
 
 from brdfguide.data import formats
 from brdfguide.data.blocks import joined
-from brdfguide.data.formats import _named_arrays
+from brdfguide.data.formats import _named_arrays, hdf5
 from brdfguide.errors import InputError
 from tests.data.formats.test_named_arrays import Hdf5, Zarr, columns, filled
 
@@ -129,3 +131,32 @@ def test_chunks_that_are_not_there_are_told(tmp_path, monkeypatch):
     for measurement in (formats.read(path), joined(list(formats.in_blocks(path)))):
         (note,) = [each for each in measurement.findings if each.code == "absent-chunks"]
         assert note.severity == "warning" and "1 of 4 of 'R', 1 of 4 of 'G'" in note.text
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a system that limits processor time")
+@pytest.mark.parametrize(
+    ("does", "said"),
+    [
+        ("signal.setitimer(signal.ITIMER_PROF, 0.05)\nwhile True:\n    pass", "reading it does not end"),
+        ("os.kill(os.getpid(), signal.SIGSEGV)", "reading it ends the process that does it"),
+    ],
+)
+def test_a_file_that_stops_the_library_stops_another_process(does, said, tmp_path, monkeypatch):
+    path = filled(Hdf5(tmp_path / "wall"), columns(9)).done()
+    assert len(formats.read(path).brdf) == 9
+    path.touch()  # another time: it is tried again
+    trial = tmp_path / "trial.py"
+    trial.write_text(f"import os, signal\n{does}\n")
+    monkeypatch.setattr(hdf5._hdf5_trial, "__file__", str(trial))
+    with pytest.raises(InputError, match=f"a damaged HDF5 table: {said}"):
+        formats.read(path)
+
+
+def test_what_is_read_of_a_file_is_touched_beforehand(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    path = filled(Hdf5(tmp_path / "wall"), columns(9)).done()
+    with path.open("rb") as file:
+        hdf5._hdf5_trial.touch(file, h5py)
+    cut = io.BytesIO(path.read_bytes()[:-400])
+    with pytest.raises(OSError, match="truncated"):
+        hdf5._hdf5_trial.touch(cut, h5py)
