@@ -74,7 +74,8 @@ class Following:
         layout, instrument = self.misfit.layout, self.misfit.measurement.instrument
         beam = instrument.solid_angle is not None and layout.model.has_mirror
         few = layout.channels <= MOST_CHANNELS and len(self.starts) * self.misfit.weights.size <= MOST_VALUES
-        return bool(self.starts) and few and not (layout.walks or beam)
+        searched = bool(self.starts) and bool(layout.shared or layout.per_channel)
+        return searched and few and not (layout.walks or beam)
 
     def family(self) -> Descents:
         """The same as `numerics.descents` wants it."""

@@ -272,7 +272,7 @@ def _ridge(layout: Layout, values: Mapping, normal: Normal, variance: float) -> 
     keys, full = tuple(keys[place] for place in free), full[np.ix_(free, free)]
     scale = np.sqrt(np.diag(full))
     strength, vectors = np.linalg.eigh(full / np.outer(scale, scale))
-    condition = sqrt(strength[-1] / strength[0]) if strength[0] > 0 else float("inf")
+    condition = sqrt(strength[-1] / max(strength[0], strength[-1] * np.finfo(float).eps))  # no further than rounding
     weak = [place for place in np.argsort(-np.abs(vectors[:, 0])) if abs(vectors[place, 0]) > 0.3]
     if condition < ILL or len(weak) < 2:
         return []
