@@ -12,15 +12,19 @@ LIMIT_S = 5  # of processor time, for at most MOST values of a dataset
 MOST = 8_000_000
 
 
+def holds_numbers_or_words(kind, h5py) -> bool:
+    """Whether values of a type are numbers or words. Damaged ones of other types end the process when they are read."""
+    return kind.get_class() in (h5py.h5t.INTEGER, h5py.h5t.FLOAT, h5py.h5t.STRING, h5py.h5t.ENUM)
+
+
 def touch(file: "io.BufferedIOBase", h5py) -> None:
     """Attributes and values, and of more than MOST values the first row."""
-    plain = h5py.h5t.INTEGER, h5py.h5t.FLOAT, h5py.h5t.STRING, h5py.h5t.ENUM
 
     def each(_, node) -> None:
         for name in node.attrs:
-            if node.attrs.get_id(name).get_type().get_class() in plain:
+            if holds_numbers_or_words(node.attrs.get_id(name).get_type(), h5py):
                 node.attrs[name]
-        if isinstance(node, h5py.Dataset) and node.shape and node.id.get_type().get_class() in plain:
+        if isinstance(node, h5py.Dataset) and node.shape and holds_numbers_or_words(node.id.get_type(), h5py):
             node[() if node.size <= MOST else slice(1)]
 
     root = h5py.File(file, "r")

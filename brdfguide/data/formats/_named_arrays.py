@@ -22,7 +22,7 @@ from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
 from ._tables import damage_told, sheet_of_columns
-from .format import Options, Source
+from .format import Format, Options, Source
 
 MOST_CELLS = 50_000_000  # read at once
 LARGEST_CELLS = 8_000_000  # beyond, a fit reads it in pieces
@@ -68,8 +68,39 @@ class ArrayTable:
             yield slice(start, min(start + step, self.shape[0]))
 
 
-def is_large(tables: list[ArrayTable]) -> bool:
-    return any(rows * columns > LARGEST_CELLS for rows, columns in (table.shape for table in tables))
+def format_of(
+    name: str,
+    suffixes: tuple[str, ...],
+    recognises: Callable[[bytes], bool],
+    tables: Callable[[Source], list[ArrayTable]],
+) -> Format:
+    """The format of a kind of file whose tables a function finds. It raises InputError for a damaged file, for one
+    without a table or with several, and as tables of text do."""
+
+    def read(source: Source, options: Options) -> Measurement:
+        return read_table(source, tables(source), options)
+
+    def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
+        return groups_of(source, tables(source), options, column)
+
+    def parts(source: Source, options: Options) -> Iterator[Measurement]:
+        return parts_of(source, tables(source), options)
+
+    def is_large(source: Source) -> bool:
+        return any(rows * columns > LARGEST_CELLS for rows, columns in (table.shape for table in tables(source)))
+
+    return Format(
+        name,
+        suffixes,
+        recognises,
+        read,
+        own_side=False,
+        groups=groups,
+        options=("columns", "unit", "select", "rotation_sense"),
+        parts=parts,
+        is_large=is_large,
+        in_place=True,
+    )
 
 
 def read_table(source: Source, tables: list[ArrayTable], options: Options) -> Measurement:

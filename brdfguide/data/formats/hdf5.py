@@ -8,14 +8,12 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from functools import partial
 from hashlib import sha256
 
-from ..measurement import Measurement
 from . import _hdf5_trial, _named_arrays
 from ._tables import damage_told, library
-from .format import Format, Options, Source
+from .format import Source
 
 KIND = "HDF5 table"
 MAGIC = b"\x89HDF\r\n\x1a\n"
@@ -25,26 +23,6 @@ _TRIED: dict[tuple, None] = {}
 
 def recognises(head: bytes) -> bool:
     return head.startswith(MAGIC)
-
-
-def read(source: Source, options: Options) -> Measurement:
-    """Raises InputError for a damaged file, for one without a table or with several, and as tables do."""
-    return _named_arrays.read_table(source, _tables(source), options)
-
-
-def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
-    """The values of a column, in the order in which they come. Raises InputError where they are no groups."""
-    return _named_arrays.groups_of(source, _tables(source), options, column)
-
-
-def is_large(source: Source) -> bool:
-    """Whether it is read in pieces. Raises InputError for a damaged file."""
-    return _named_arrays.is_large(_tables(source))
-
-
-def parts(source: Source, options: Options) -> Iterator[Measurement]:
-    """The same as `read` gives, in pieces. Raises InputError as `read`."""
-    return _named_arrays.parts_of(source, _tables(source), options)
 
 
 def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
@@ -108,19 +86,13 @@ def _stored(array) -> int:
     return array.node.id.get_storage_size()
 
 
-def _is_plain(kind, h5py) -> bool:
-    """Whether values of a type are numbers or words. Damaged ones of other types end the process when they are read."""
-    classes = (h5py.h5t.INTEGER, h5py.h5t.FLOAT, h5py.h5t.STRING, h5py.h5t.ENUM)
-    return kind.get_class() in classes
-
-
 class _Node:
     """A group, or what a group and a dataset have in common: attributes that are numbers or words."""
 
     def __init__(self, node, h5py):
         self.node, self.attrs = node, {}
         for name in node.attrs:
-            if isinstance(name, str) and _is_plain(node.attrs.get_id(name).get_type(), h5py):
+            if isinstance(name, str) and _hdf5_trial.holds_numbers_or_words(node.attrs.get_id(name).get_type(), h5py):
                 self.attrs[name] = node.attrs[name]
 
 
@@ -130,7 +102,7 @@ class _Array(_Node):
     def __init__(self, dataset, h5py):
         super().__init__(dataset, h5py)
         self.shape, self.chunks = dataset.shape, dataset.chunks
-        self.plain = _is_plain(dataset.id.get_type(), h5py)
+        self.plain = _hdf5_trial.holds_numbers_or_words(dataset.id.get_type(), h5py)
         self.words = bool(h5py.check_string_dtype(dataset.dtype))
 
     def __getitem__(self, rows: slice):
@@ -180,15 +152,4 @@ class _Content(io.RawIOBase):
         super().close()
 
 
-FORMAT = Format(
-    "hdf5",
-    (".h5", ".hdf5", ".nc"),
-    recognises,
-    read,
-    own_side=False,
-    groups=groups,
-    options=("columns", "unit", "select", "rotation_sense"),
-    parts=parts,
-    is_large=is_large,
-    in_place=True,
-)
+FORMAT = _named_arrays.format_of("hdf5", (".h5", ".hdf5", ".nc"), recognises, _tables)

@@ -1,41 +1,19 @@
 """zarr: a folder with a group of 1-D arrays named as columns, or a 2-D array whose attribute names them. Needs zarr."""
 
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
 
 from ...opening import ARRAY_FOLDER
-from ..measurement import Measurement
 from . import _named_arrays
 from ._tables import damage_told, library
-from .format import Format, Options, Source
+from .format import Source
 
 KIND = "zarr table"
 
 
 def recognises(head: bytes) -> bool:
     return head.startswith(ARRAY_FOLDER)
-
-
-def read(source: Source, options: Options) -> Measurement:
-    """Raises InputError for a damaged folder, for one without a table or with several, and as tables do."""
-    return _named_arrays.read_table(source, _tables(source), options)
-
-
-def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
-    """The values of a column, in the order in which they come. Raises InputError where they are no groups."""
-    return _named_arrays.groups_of(source, _tables(source), options, column)
-
-
-def is_large(source: Source) -> bool:
-    """Whether it is read in pieces. Raises InputError for a damaged folder."""
-    return _named_arrays.is_large(_tables(source))
-
-
-def parts(source: Source, options: Options) -> Iterator[Measurement]:
-    """The same as `read` gives, in pieces. Raises InputError as `read`."""
-    return _named_arrays.parts_of(source, _tables(source), options)
 
 
 def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
@@ -63,15 +41,4 @@ def _stored(folder: Path, array) -> int:
     return sum(each.stat().st_size for each in (folder / array.path).rglob("*"))
 
 
-FORMAT = Format(
-    "zarr",
-    (".zarr",),
-    recognises,
-    read,
-    own_side=False,
-    groups=groups,
-    options=("columns", "unit", "select", "rotation_sense"),
-    parts=parts,
-    is_large=is_large,
-    in_place=True,
-)
+FORMAT = _named_arrays.format_of("zarr", (".zarr",), recognises, _tables)
