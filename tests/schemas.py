@@ -112,7 +112,7 @@ NULLABLE = {  # null where the data do not say it, which the commands above all 
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
     *("r_mirror_data", "r_max_data", "gloss_gu", "held_out_rms_ln", "seen", "stderr", "known_to", "shows_from"),
     *("measured_rms_ln", "measured_off_percent", "key", "energy", "reciprocity", "off_plane", "missing"),
-    *("noise_relative", "with_it"),
+    *("noise_relative", "with_it", "held_out_fits"),
 }
 OPTIONAL = {  # there or not, as was asked
     *("time_per_sample_ns", "ns_per_sample", "fit_time_s", "on_front", "standard_error_left", "differ_by_noise"),
@@ -142,6 +142,8 @@ MEANINGS = {
     "rms_ln": "rms of ln(model/data)",
     "off_percent": "the same as a percentage: how far off it typically is",
     "held_out_rms_ln": "the same at incidence angles that the fit did not see",
+    "held_out_fits": "what was found without each group of incidences, from which these errors follow; null where the "
+    "sample was turned, and where not all directions and channels were looked at",
     "behind": "how much larger its error is than the best one's",
     "behind_se": "standard error of that, over blocks of neighbouring directions",
     "tied": "cannot be told from the best by these data",

@@ -37,6 +37,22 @@ class PrintedGrowth:
 
 
 @dataclass(frozen=True)
+class PrintedHighest:
+    """The steepest incidences, as they were foretold."""
+
+    theta_i_deg: Number
+    rms_ln: Number
+
+
+@dataclass(frozen=True)
+class PrintedFold:
+    """The numbers that were found without the incidences between two."""
+
+    theta_i_deg: tuple[float, float]
+    values: dict[str, float | tuple[float, ...]]
+
+
+@dataclass(frozen=True)
 class PrintedRow:
     """One candidate."""
 
@@ -56,6 +72,9 @@ class PrintedRow:
     flags: tuple[PrintedFlag, ...]
     growth: PrintedGrowth | None = None
     typed: dict[str, float | tuple[Number, ...] | None] | None = None
+    held_out_rms_ln: Number = None
+    held_out_highest: PrintedHighest | None = None
+    held_out_fits: tuple[PrintedFold, ...] | None = None
 
 
 @dataclass(frozen=True)

@@ -186,10 +186,13 @@ def _off_plane_deg(angles: tuple[float, float, float, float]) -> float:
 
 def exact_residuals(surface: ExactSurface, data: Readings) -> list[list]:
     """ln(model/data) in every channel; None where nothing is told. Raises RoundingDecides."""
-    return [
-        [None if ln is None else log(_seen(surface, sight, c, data.wavelengths[c])) - ln for c, ln in enumerate(row)]
-        for sight, row in zip(data.sights, data.ln, strict=True)
-    ]
+    return [residuals_of(surface, data, number) for number in range(len(data.angles))]
+
+
+def residuals_of(surface: ExactSurface, data: Readings, number: int) -> list:
+    """The same of one direction."""
+    sight, row = data.sights[number], data.ln[number]
+    return [None if ln is None else log(_seen(surface, sight, c, data.wavelengths[c])) - ln for c, ln in enumerate(row)]
 
 
 def _seen(surface: ExactSurface, sight: ExactReading, channel: int, wavelength):

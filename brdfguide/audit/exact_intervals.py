@@ -205,6 +205,8 @@ class _Equations:
             inverse = scaled**-1
         except ZeroDivisionError:
             return None
+        if any(inverse[i, i] <= 0 for i in range(len(sizes))):  # rounding, of columns that are parallel
+            return None
         condition = len(sizes) * fsum(inverse[i, i] for i in range(len(sizes)))
         for i, one in enumerate(sizes):
             for j, other in enumerate(sizes):

@@ -1,9 +1,9 @@
 """An answer of `fit` derived again from the numbers it prints and the data: which of them agree, and which do not.
 
 Parameters are taken as printed; from them, with mpmath and the laws of `textbook`, follow residuals, errors,
-differences and what stands beside them: standard errors, growth, the price out of the plane, what is told twice. What a
-fit found on its way (held-out errors, floors) cannot follow from its answer: that is said, and only the answer's digest
-holds it.
+differences and what stands beside them: standard errors, growth, the price out of the plane, what is told twice; from
+the numbers found without a group of incidences the held-out errors. What a fit found on its way (noise, floors) cannot
+follow from its answer: that is said, and only the answer's digest holds it.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,6 +16,7 @@ from ..errors import InputError
 from ..records import dataclass
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
+from .exact_held_out import compare_held_out
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
 from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
 from .rederived import Comparisons, Rederived
@@ -82,7 +83,7 @@ def verify(
             _orders(answer, found)
             exact_followers.copies(answer, found)
             exact_followers.programs(answer, found)
-    used = sum(_size(entry["value"]) for row in answer["ranking"] for entry in row["parameters"].values())
+    used = sum(map(_parameters_of, answer["ranking"]))
     return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
 
 
@@ -115,6 +116,13 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         robust="weighed-robustly" in codes,
         faults=bool(measurement.otherwise),
     )
+
+
+def _parameters_of(row: dict) -> int:
+    """How many numbers of one row are parameters: its own, and those found without a group of incidences."""
+    values = [entry["value"] for entry in row["parameters"].values()]
+    values += [value for fold in row.get("held_out_fits") or [] for value in fold["values"].values()]
+    return sum(map(_size, values))
 
 
 def _has(row: dict, code: str) -> bool:
@@ -193,6 +201,7 @@ class _Row:
             compare_stderrs(fitted_row, place, self.data, found)
         exact_followers.reflectance_errors(row, place, found)
         exact_followers.exact_growth(self, self.data, found)
+        compare_held_out(row, place, self.data, found)
         for flag in row["flags"]:
             if flag["code"] == "discrepancy":
                 self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)

@@ -22,10 +22,10 @@ from . import starting_grid
 from .choosing import recommending
 from .fit import Fit, FitOptions
 from .followed import End, Following, follow
-from .layout import layout_of
+from .layout import Layout, layout_of
 from .objective import SMALLEST, Misfit, metric
 from .prepared import few_channels
-from .ranked import HeldOut, Ranking
+from .ranked import HeldOut, LeftOut, Ranking
 from .reading import many, reading
 from .residuals import ln_residuals
 
@@ -69,7 +69,16 @@ def _held_out(following: Following, ends: list[End], folds: list["_Fold"]) -> He
         last = float(np.sqrt(np.nanmean(residuals**2)))
     highest = folds[-1].inside
     told = highest.clear.any(axis=1)
-    return HeldOut(float(np.sqrt(squares / counts)), last, float(highest.geom.theta_i_deg[told].max()))
+    without = tuple(_left_out(following.misfit.layout, end, fold) for end, fold in zip(ends, folds, strict=True))
+    turned = turn_of_each(following.misfit.measurement.geom) is not None
+    steepest = float(highest.geom.theta_i_deg[told].max())
+    return HeldOut(float(np.sqrt(squares / counts)), last, steepest, () if turned else without)
+
+
+def _left_out(layout: Layout, end: End, fold: "_Fold") -> LeftOut:
+    values, theta_i = layout.decode(end.shared, end.per_channel), fold.inside.geom.theta_i_deg
+    searched = {key: values[key] for key in (*layout.shared, *layout.per_channel)}
+    return LeftOut((float(theta_i.min()), float(theta_i.max())), searched)
 
 
 def _foretold(following: Following, ends: list[End], folds: list["_Fold"]) -> Iterator[np.ndarray]:
@@ -167,6 +176,12 @@ def thinned(measurement: Measurement) -> Measurement:
     kept = measurement if measurement.has_value.all() else measurement[measurement.has_value]
     rows = starting_grid.spread_rows(kept, SAMPLES)
     return kept[rows].of_channels(few_channels(measurement.brdf.shape[1]))
+
+
+def looks_at_all(measurement: Measurement) -> bool:
+    """Whether repeated fits look at every value."""
+    few = thinned(measurement)
+    return few.brdf.shape == (np.count_nonzero(measurement.has_value), measurement.brdf.shape[1])
 
 
 def thinned_surface(fit: Fit) -> Surface:

@@ -13,6 +13,14 @@ REAL = 2.0  # standard errors from which a difference counts
 BETTER = 0.97  # of an error, below which another is less in earnest: worth a step of growth, or to be preferred (ours)
 
 
+@dataclass(frozen=True, eq=False)
+class LeftOut:
+    """A group of incidence angles, and the numbers that were searched for without it."""
+
+    theta_i_deg: tuple[float, float]  # the lowest and the highest
+    values: Mapping  # by key, numbers or arrays with one for each channel
+
+
 @dataclass(frozen=True)
 class HeldOut:
     """Errors at incidence angles, and turns of the sample, that the fit did not see."""
@@ -20,6 +28,7 @@ class HeldOut:
     rms_ln: float  # over all folds
     highest_rms_ln: float  # the steepest incidence angles, predicted from the others
     highest_theta_i_deg: float
+    folds: tuple[LeftOut, ...] = ()  # none where other things than incidences tell what was left out
 
 
 @dataclass(frozen=True, eq=False, repr=False)

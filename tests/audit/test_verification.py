@@ -14,7 +14,7 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 from mpmath import mp, mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_errors, exact_followers, exact_surface, textbook_more, verification
+from brdfguide.audit import exact_errors, exact_followers, exact_intervals, exact_surface, textbook_more, verification
 from brdfguide.audit.rederived import Comparisons
 from brdfguide.data.formats.format import InputError
 from brdfguide.data.measurement import Measurement
@@ -29,14 +29,14 @@ from .. import synthetic
 from ..conftest import ROOT
 from ..data.test_rotation import scans
 
-APART = ("parameters", "flags", "typed")  # where a key has dots of its own
+APART = ("parameters", "flags", "typed", "held_out_fits")  # where a key has dots of its own
 MODELS = ("lambertian+ggx", "lambertian+he-torrance", "lambertian+lafortune:2", "lambertian+ward")
 CODE = (
     *("textbook", "textbook_more", "textbook_grain", "exact_surface", "exact_errors", "exact_followers", "rederived"),
-    *("exact_intervals", "verification", "answer_shape"),
+    *("exact_intervals", "exact_held_out", "verification", "answer_shape"),
 )
 SHARED = {
-    *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".rederived"),
+    *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".exact_held_out", ".rederived"),
     *("..errors", "..records", "..data.measurement"),
 }
 
@@ -275,10 +275,53 @@ def _one_digit_off(value):
 
 def test_the_digest_finds_what_does_not_follow(answer):
     document = deepcopy(answer[1])
-    document["ranking"][1]["held_out_rms_ln"] *= 1.001
+    document["ranking"][1]["evaluations"] += 1
     assert not verified(answer, document).wrong and digest_holds(document) is False
     del document["digest"]
     assert digest_holds(document) is None
+
+
+@pytest.mark.parametrize(
+    "digit",
+    [
+        ("held_out_rms_ln",),
+        ("held_out_highest", "rms_ln"),
+        ("held_out_highest", "theta_i_deg"),
+        ("held_out_fits", 0, "theta_i_deg", 1),
+        ("held_out_fits", 1, "values", "lambertian.albedo", 0),
+        ("held_out_fits", 2, "values", "lafortune.2.exponent"),
+    ],
+    ids=lambda digit: ".".join(map(str, digit)),
+)
+def test_held_out_errors_follow_from_what_was_found_without_each_group(answer, digit):
+    document = deepcopy(answer[1])
+    place = next(i for i, row in enumerate(document["ranking"]) if row["model"] == "lambertian+lafortune:2")
+    at, last = document["ranking"][place], digit[-1]
+    for step in digit[:-1]:
+        at = at[step]
+    at[last] *= 1 + 1e-7
+    wrong = verified(answer, document).wrong
+    assert wrong and all("held_out" in each.place and each.place.startswith(f"ranking[{place}]") for each in wrong)
+
+
+def test_of_many_directions_the_answer_does_not_tell_what_was_found_without_a_group():
+    model = models.get("lambertian+ward")
+    data = synthetic.surface(model, synthetic.scan(theta_i=(15, 45, 70), step=0.7), {}, noise=0.03, seed=3)
+    row = fit(data, ["lambertian+ward"], timing=False).document["ranking"][0]
+    assert len(data.brdf) > 500 and row["held_out_rms_ln"] > 0 and row["held_out_fits"] is None
+
+
+def test_slopes_that_are_parallel_but_for_rounding_have_no_inverse():
+    parallel = exact_intervals._Equations(row=None, part=None)
+    with workdps(30):
+        one = {(row, 0): mpf(row + 1) / 7 for row in range(6)}
+        for over in range(3, 40):  # rounded another way each time; the inverse is of either sign
+            other = {at: value * 1000 / over for at, value in one.items()}
+            even = {at: mpf(1) / over for at in one}
+            vars(parallel)["columns"] = [one, other, even]
+            vars(parallel).pop("inverse", None)
+            found = parallel.inverse
+            assert found is None or found[1] > mpf(10) ** 20
 
 
 def test_other_data_are_refused_or_differ(answer):

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...data.measurement import Measurement
 from ...data.metal_or_dielectric import Verdict
+from ...fitting.cross_validation import looks_at_all
 from ...fitting.fit import Fit
 from ...fitting.missing_term import missing_term
 from ...fitting.next_measurement import Next
@@ -225,6 +226,7 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
         "held_out_highest": {"theta_i_deg": row.held_out.highest_theta_i_deg, "rms_ln": row.held_out.highest_rms_ln}
         if row.held_out
         else None,
+        "held_out_fits": _held_out_fits(row, measurement),
         "growth": row.growth,
         "behind": row.behind,
         "behind_se": row.behind_se,
@@ -238,6 +240,23 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
     if timing:
         entry |= {"time_per_sample_ns": row.ns_per_sample, "fit_time_s": fit.seconds, "on_front": row.on_front}
     return entry
+
+
+def _held_out_fits(row: Row, measurement: Measurement) -> list[dict] | None:
+    """What was searched for without each group of incidences, where that looked at every value."""
+    if row.held_out is None or not row.held_out.folds or not looks_at_all(measurement):
+        return None
+    parameters = row.fit.model.parameters
+    return [
+        {
+            "theta_i_deg": fold.theta_i_deg,
+            "values": {
+                key: _of_channels(parameters[key], parameters[key].outside(value), row.fit)
+                for key, value in fold.values.items()
+            },
+        }
+        for fold in row.held_out.folds
+    ]
 
 
 def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
