@@ -84,6 +84,7 @@ class PrintedData:
     file: str
     samples: int
     values: int
+    missing: int
     channels: tuple[str, ...]
     wavelength_nm: tuple[float, ...]
     theta_i_deg: tuple[float, ...]

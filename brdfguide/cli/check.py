@@ -69,6 +69,7 @@ def _certified(fit: Path, model: str | None, data: Path):
     """What SciPy says of a fit, as a Finding."""
     from ..audit.certify import certify
     from ..fitting import saved
-    from ..fitting.job import Job, read_for_fit
+    from ._reread import reread, told_of_data
 
-    return certify(saved.read_minimum(fit, model), read_for_fit(data, Job(anyway=True))).finding()
+    minimum = saved.read_minimum(fit, model)
+    return certify(minimum, reread(data, told_of_data(fit), fit)).finding()

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from typer import Argument, Context, Option
 
-from ..errors import InputError, choices
+from ..errors import InputError, NoAnswer, choices
 from ..records import dataclass
 from ._data import ApertureOption
 from ._options import ForceOption, JsonOption, QuietOption, answer, output_file, picture_file, progress, remark
@@ -159,7 +159,10 @@ def _ranked(file: Path):
     from ..fitting.compare import compare
     from ..fitting.job import Job, case
 
-    found = case(file, Job(anyway=True))
+    try:
+        found = case(file, Job())
+    except (InputError, NoAnswer):  # of what contradicts itself or lies outside the guide as well
+        found = case(file, Job(anyway=True))
     return found.measurement, compare(found.measurement, found.candidates, grows=False, kind=found.kind)
 
 

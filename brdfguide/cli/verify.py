@@ -1,7 +1,6 @@
 """`brdfguide verify ANSWER.json [DATA]`: the numbers of an answer derived again, with no code of the fit."""
 
 import json
-from dataclasses import fields
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +8,6 @@ from typer import Argument, Option
 
 from ..errors import InputError, NoAnswer, choices
 from ..records import dataclass
-from ._data import Reading, wavelength_choice
 from ._options import JsonOption, QuietOption, answer, print_json, progress
 
 EXAMPLES = "Examples: brdfguide verify fit.json | brdfguide verify fit.json run.csv --model lambertian+ggx --json"
@@ -39,6 +37,7 @@ def verify(request: VerifyRequest) -> None:
     from ..report.documents.digest import digest_holds
     from ..report.documents.verification import verification_document
     from ..report.text.verification import verification_text
+    from ._reread import reread
 
     try:
         from ..audit import verification
@@ -46,26 +45,13 @@ def verify(request: VerifyRequest) -> None:
         raise InputError("verify needs the package mpmath: pip install 'brdfguide[verify]'") from None
     document = _answer(request.answer_file, request.model)
     file = request.data or Path(document["data"]["file"])
-    data = verification.readings_of(_measured(file, document["data"], str(request.answer_file)), document)
+    data = verification.readings_of(reread(file, document["data"], request.answer_file), document)
     with progress(len(document["ranking"]), request.quiet) as tell:
         found = verification.verify(document, data, request.model, tell)
     result = verification_document(found, str(request.answer_file), str(file), digest_holds(document))
     print_json(result) if request.json else answer(result, False, verification_text)
     if not result["agrees"]:
         raise NoAnswer(f"{request.answer_file}: it does not hold")
-
-
-def _measured(file: Path, told: dict, answer_file: str):
-    """The data as they were read for the fit. Raises InputError for what no option of reading can say."""
-    from ..fitting.job import Job, read_for_fit
-
-    known = {each.name for each in fields(Reading)}
-    said = told.get("read_with") or {}
-    if unknown := sorted(said.keys() - known):
-        raise choices(f"option of reading in {answer_file}: data.read_with", unknown[0], sorted(known))
-    wavelength = said.get("wavelength")
-    typed = {"wavelength": wavelength_choice(wavelength)} if isinstance(wavelength, str) else {}
-    return read_for_fit(file, Job(reading=tuple({**said, **typed}.items()), anyway=True))
 
 
 def _answer(path: Path, model: str | None) -> dict:
