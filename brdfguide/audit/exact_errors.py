@@ -148,8 +148,7 @@ def _held(angles: list[float]) -> list[int]:
 
 def undrifted(data: Readings, found: dict) -> Readings:
     """The values without the gains of their scans, the directions with the arm's zero, as a flag `instrument` tells."""
-    gains = _gains(found)
-    at_plane = all(_off_plane_deg(each) < 0.1 for each in data.angles)
+    gains, at_plane = _gains(found), all(_off_plane_deg(each) < 0.1 for each in data.angles)
     angles, values = [], []
     for (theta_i, phi_i, theta_r, phi_r), signed, row in zip(
         data.angles, data.signed_theta_r, data.values, strict=True
@@ -172,7 +171,7 @@ def _gains(found: dict) -> dict[float, float]:
 
 def spread_of_gains(found: dict):
     """rms of ln about their mean."""
-    gains = [mpf(each) for each in _gains(found).values()]
+    gains = list(map(mpf, _gains(found).values()))
     mean = fsum(gains) / len(gains)
     return sqrt(fsum((each - mean) ** 2 for each in gains) / len(gains))
 

@@ -5,6 +5,8 @@
 The expression is parsed anew, so that a mistake in how the program understands its own answers shows as well.
 """
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import field, replace
 from functools import cached_property
 
@@ -158,22 +160,32 @@ def surface_of(expression: str, parameters: dict) -> ExactSurface:
     """A row's `model` and its `parameters`. Raises NoLaw for a law that is not written down here, TooNarrow."""
     values = {key: entry["value"] for key, entry in parameters.items() if not entry.get("derived")}
     parts: list[TermInAnswer] = []
-    coated = False
-    words = [word.strip() for word in expression.split("+")]
-    for word in words:
-        if word.startswith("coated:"):
-            coated, word = True, word.removeprefix("coated:")
-        name, _, count = word.partition(":")
-        law = SHORT.get(name, name)
-        if law not in KNOWN or "(" in name:
-            raise NoLaw(name)
-        labels = [law] if not count else [f"{law}.{place}" for place in range(1, int(count) + 1)]
+    words = list(_words(expression))
+    total, so_far = Counter[str](), Counter[str]()
+    for law, count, _ in words:
+        total[law] += count
+    for law, count, coated in words:
+        first = so_far[law] + 1
+        labels = [f"{law}.{place}" for place in range(first, first + count)] if total[law] > 1 else [law]
         parts += [TermInAnswer(law, _keys(label, labels[0], values), coated) for label in labels]
+        so_far[law] += count
     for part in parts:
         told = values[dict(part.keys)["alpha"]] if part.law in SERIES else []
         if any(each < SERIES[part.law][1] for each in (told if isinstance(told, list) else [told])):
             raise TooNarrow
     return ExactSurface(tuple(parts), values)
+
+
+def _words(expression: str) -> Iterator[tuple[str, int, bool]]:
+    """Of each word its law, how many lobes it has, and whether a coat lies over it. Raises NoLaw."""
+    coated = False
+    for word in map(str.strip, expression.split("+")):
+        coated = coated or word.startswith("coated:")
+        name, _, count = word.removeprefix("coated:").partition(":")
+        law = SHORT.get(name, name)
+        if law not in KNOWN or "(" in name or not (count or "1").isdecimal():
+            raise NoLaw(word)
+        yield law, int(count or 1), coated
 
 
 def _keys(label: str, first: str, values: dict) -> tuple[tuple[str, str], ...]:

@@ -225,9 +225,10 @@ class Directions(KeepsFormed):
 
     @cached_property
     def signed_theta_r_deg(self):
-        """The report's reflection angle: positive on the mirror side, negative on the side of the light."""
+        """The report's reflection angle: positive on the mirror side, negative on the side of the light; at right
+        angles to the plane of incidence positive, on whichever side rounding lies."""
         toward_mirror = np.where(self.sin_i < 1e-9, -np.cos(np.radians(self.phi_deg)), -self.dot_xy)
-        return np.where(toward_mirror >= 0, self.theta_r_deg, -self.theta_r_deg)
+        return np.where(toward_mirror >= -ACROSS, self.theta_r_deg, -self.theta_r_deg)
 
     # --- other views --------------------------------------------------------------------------------
 
@@ -346,6 +347,7 @@ def gathered(parts: Sequence[Directions]) -> Directions:
     return Directions(**{name: np.concatenate([getattr(each, name) for each in parts]) for name in FIELDS})
 
 
+ACROSS = 1e-14  # sin θi sin θr cos φ, up to which a direction lies at right angles to the plane of incidence
 AT_NORMAL = {"cos_i": 1.0, "cos_r": 1.0, "phi_deg": 180.0}  # a pair that meets no horizon; other fields are 0
 FIELDS = tuple(field.name for field in fields(Directions))
 KNOWN = FIELDS[:-2]  # all but the azimuths

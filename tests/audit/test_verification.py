@@ -11,10 +11,10 @@ import pytest
 
 pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not installed")
 
-from mpmath import mp, mpf, workdps
+from mpmath import mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_errors, exact_followers, exact_intervals, exact_surface, textbook_more, verification
+from brdfguide.audit import exact_errors, exact_followers, exact_intervals, exact_surface, verification
 from brdfguide.audit.rederived import Comparisons
 from brdfguide.data.formats.format import InputError
 from brdfguide.data.measurement import Measurement
@@ -338,29 +338,15 @@ def test_a_law_that_no_textbook_has_is_named(answer):
     assert "openpbr" in next(iter(verified(answer, document).left.values()))
 
 
-@pytest.mark.parametrize("pin", models.term("he-torrance").pins, ids=lambda pin: pin.source)
-def test_he_torrance_is_written_down_a_second_time(pin):
-    angles = (pin.geom.theta_i_deg, pin.geom.phi_i_deg, pin.geom.theta_r_deg, pin.geom.phi_i_deg + pin.geom.phi_deg)
-    values = {**models.term("he-torrance").defaults(), **pin.values, "wavelength": float(pin.geom.wavelength)}
-    right = textbook_more.exact_value("he-torrance", [float(np.squeeze(a)) for a in angles], values)
-    assert float(right) == pytest.approx(pin.f, rel=1e-15)
-
-
-def test_a_coat_an_aperture_and_its_mirror_beam_are_too():
-    from brdfguide.fitting.reading import reading
-    from brdfguide.physics.aperture import Instrument
-    from brdfguide.physics.geometry import Geometry
-
-    surface = Surface.named("coated:lambertian+flakes", {"lambertian.albedo": 0.4, "coat.sigma": 0.05})
-    geom = rows(Geometry.from_degrees([30.0, 30.0, 60.0], 0.0, [30.0, 10.0, 50.0], [180.0, 90.0, 181.0]))
-    ours = reading(surface, Instrument(geom, 0.003))[:, 0]
-    parameters = {key: {"value": float(np.squeeze(value))} for key, value in surface.values.items()}
-    exact = exact_surface.surface_of("coated:lambertian+flakes", parameters)
-    with workdps(30):
-        for value, theta_i, theta_r, phi in zip(ours, (30, 30, 60), (30, 10, 50), (180, 90, 181), strict=True):
-            sight = exact_surface.ExactReading((theta_i, 0.0, theta_r, phi), 0.003)
-            assert value == pytest.approx(float(sight.reading(exact, 0, mpf(0.55))), rel=1e-11)
-    assert mp.dps == 15
+@pytest.mark.parametrize("phi", [90.0, -90.0, 270.0, 450.0])
+def test_directions_at_right_angles_to_the_plane_are_in_one_order(phi):
+    theta_i, theta_r = (each.ravel() for each in np.meshgrid([10.0, 35.0, 70.0], np.arange(0.0, 80.0, 5.0)))
+    for light in (0.0, 180.0, 33.3):
+        geom = rows(Geometry.from_degrees(theta_i, light, theta_r, light + phi))
+        assert np.all(geom.signed_theta_r_deg >= 0)
+        angles = tuple((i, light, r, light + phi) for i, r in zip(theta_i.tolist(), theta_r.tolist(), strict=True))
+        data = exact_errors.Readings(angles, ((1.0,),) * len(angles), (0.0,), (0.55,))
+        assert data.signed_theta_r == geom.signed_theta_r_deg[:, 0].tolist()
 
 
 def test_the_command_ends_with_1_where_a_digit_was_changed_and_2_for_no_answer(tmp_path):
