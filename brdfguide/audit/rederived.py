@@ -7,6 +7,7 @@ from ..records import dataclass
 CLOSE = 1e-10  # relative: sixteen digits, less what sums over a thousand values and a steep lobe lose
 EXACT = 1e-13  # relative: a double printed and read again
 TOLD = 4  # digits of a percentage
+EXACT_MODEL, ROUNDED = 1e-8, 1e-12  # percent: of less the last digits are rounding, and how much that is
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,9 @@ class Comparisons:
         """One that was printed with so many digits; either neighbour where it lies between two."""
         if self.slack:
             self.check(place, found, right, 10.0 ** (1 - digits), 100 * self.slack)
+            return
+        if abs(float(right)) < EXACT_MODEL:
+            self.check(place, found, right, absolute=ROUNDED)
             return
         ends = [float(f"{float(right) * (1 + step):.{digits}g}") for step in (-CLOSE, CLOSE)]
         self.check(place, found, ends[0] if found == ends[0] else ends[1], EXACT)

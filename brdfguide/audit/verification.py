@@ -23,6 +23,7 @@ from .rederived import Comparisons, Rederived
 
 DIGITS = 30  # of the arithmetic
 WHITE = 39  # L* by which white changes with ln f, 116/3
+ROUNDED_L = 1e-12  # L* that rounding leaves of a model that is exact
 
 
 @dataclass(frozen=True)
@@ -190,7 +191,7 @@ class _Row:
         if self.grey and self.lightness:
             right = self.grey[0].apart(self.lightness, self.grey[1])
             for key, told in (("seen", row["seen"]), ("errors.seen", row["errors"]["seen"])):
-                found.check(f"{place}.{key}", told, right, absolute=1e-15 + WHITE * found.slack)
+                found.check(f"{place}.{key}", told, right, absolute=ROUNDED_L + WHITE * found.slack)
         fitted = (_size(each["value"]) for each in row["parameters"].values() if each.get("fitted"))
         found.check(f"{place}.free_parameters", row["free_parameters"], sum(fitted))
         self._parameters(found)

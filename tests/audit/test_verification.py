@@ -86,6 +86,14 @@ def test_so_does_one_by_other_rules(options):
     assert not verified((found.measurement, found.document)).wrong
 
 
+def test_nothing_but_rounding_is_left_of_a_model_that_is_exact():
+    geom = rows(synthetic.scan(theta_i=(10, 30, 50), step=20.0))
+    data = synthetic.surface(models.get("lambertian"), geom, {"lambertian.albedo": 0.2 * np.pi})
+    found = fit(data, ("lambertian", "oren-nayar", "lambertian+ggx"), timing=False)
+    again = verified((found.measurement, found.document))
+    assert found.document["ranking"][0]["rms_ln"] < 1e-11 and not again.wrong
+
+
 def test_several_channels_through_an_aperture_hold_too():
     model = models.get("lambertian+mirror+ggx")
     geom = synthetic.scan(theta_i=(20, 60), step=8.0)
