@@ -79,7 +79,9 @@ def _over_orders(g, y, top, width, derivatives):
     first, last = _window(top, width)
     whole = first[:, None] + np.arange(int(np.max(last - first)))
     m = whole.astype(float)
-    exponent = m * np.log(g)[:, None] - _ln_factorial_m(whole) - y[:, None] / m
+    exponent = m * np.log(g)[:, None]
+    exponent -= _ln_factorial_m(whole)
+    exponent -= y[:, None] / m
     highest, term, total = _scaled(exponent)
     value = highest - g + np.log(total)
     return (value, (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total) if derivatives else (value,)
@@ -106,11 +108,13 @@ def _integral(g, y, u, top, width, derivatives):
     l = u[:, None] + p * ln_stretch  # noqa: E741  ln(m/g)
     r = np.exp(l)
     g = g[:, None]
-    near = np.abs(l) < 0.35
-    psi = np.where(near, l * l * horner(PSI, np.where(near, l, 0.0)), l * r - np.expm1(l))
     one_over_m = 1 / (g * r)
-    stirling = one_over_m * horner(STIRLING, one_over_m**2)
-    exponent = -g * psi - y[:, None] * one_over_m - 1.5 * l - stirling + (p - 1) * ln_stretch
+    exponent = _psi(l, r)
+    exponent *= -g
+    exponent -= y[:, None] * one_over_m
+    exponent -= 1.5 * l
+    exponent -= one_over_m * horner(STIRLING, one_over_m**2)
+    exponent += (p - 1) * ln_stretch
     highest, term, total = _scaled(exponent)
     value = highest + np.log(total * (NODES[1] - NODES[0])) + np.log(width) - 1.5 * np.log(g[:, 0]) - 0.5 * log(2 * pi)
     return (
@@ -120,8 +124,22 @@ def _integral(g, y, u, top, width, derivatives):
     )
 
 
+def _psi(l, r):  # noqa: E741
+    """l e^l - (e^l - 1) of l and r = e^l."""
+    near = np.abs(l) < 0.35
+    if near.all():
+        return l * l * horner(PSI, l)
+    psi = l * r
+    psi -= np.expm1(l)
+    small = l[near]
+    psi[near] = small * small * horner(PSI, small)
+    return psi
+
+
 def _scaled(exponent):
-    """The largest exponent of each row, the terms relative to it, their sum."""
+    """The largest exponent of each row, the terms relative to it, which take the exponents' place, and their sum."""
     highest = exponent.max(axis=1)
-    term = np.exp(np.maximum(exponent - highest[:, None], -60.0))
+    exponent -= highest[:, None]
+    np.maximum(exponent, -60.0, out=exponent)
+    term = np.exp(exponent, out=exponent)
     return highest, term, term.sum(axis=1)

@@ -7,6 +7,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from brdfguide.models import _series_cells
 from brdfguide.models import he_torrance as he
 from brdfguide.models._series import by_products, by_terms
 from brdfguide.models._series_patches import ln_series
@@ -180,6 +181,21 @@ def test_few_samples_and_many_are_summed_alike_with_seed_35():
     )
     np.testing.assert_allclose(few[0], many[0], rtol=1e-13, atol=2e-11)
     np.testing.assert_allclose(few[1:], many[1:], rtol=1e-8, atol=1e-8)
+
+
+def test_patches_of_every_kind_of_cell_are_its_polynomial_with_seed_36():
+    """At random and in corners of patches: cells with 4 patches along y, and with up to 32."""
+    random = np.random.default_rng(36)
+    octave = random.integers(0, _series_cells.OCTAVES_G * _series_cells.OCTAVES_Y, 500)
+    row, column = np.divmod(octave, _series_cells.OCTAVES_Y)
+    inside = np.where(random.random((2, 500)) < 0.3, random.integers(0, 32, (2, 500)) / 32, random.random((2, 500)))
+    g = 2.0 ** (_series_cells.G_FIRST + row + inside[0])
+    y = (2.0 ** (column + inside[1]) - 1) * np.maximum(g, 4)
+    few, many = np.array(ln_series(g, y, derivatives=True)), _series_cells.by_cells(g, y, derivatives=True)
+    assert np.max(np.abs(few[0] - many[0]) / np.maximum(1.0, np.abs(many[0]) / 650)) < 2e-11
+    shallow = many[0] > -650
+    assert np.max((np.abs(few - many)[1] / np.maximum(1.0, np.abs(many[1])))[shallow]) < 1e-8
+    assert np.max((np.abs(few - many)[2] / np.maximum(1e-3, np.abs(many[2])))[shallow]) < 1e-8
 
 
 def test_outside_the_cells_the_terms_are_summed():
