@@ -28,6 +28,7 @@ PRUNED = 4.0  # times the best error beyond which a model is not refined
 LEAST_PRUNED = 0.5  # rms below which every model is refined
 ASKED_OF_DRIFT = 3  # of the best models, whose misfit may be the instrument's
 MAY_BE_BEST = 1.5  # times the least squares that one step beside the instrument promises, up to which one may be (ours)
+TWINS = 1.15  # times the least error where models are compared, up to which one is told over a whole table (ours)
 ROBUST_ROUNDS = 4
 MOST_TO_SETTLE = 400  # evaluations
 
@@ -86,7 +87,7 @@ def fit(model: Composite, measurement: Measurement | Prepared, options: FitOptio
     data = measurement if isinstance(measurement, Prepared) else prepare(measurement, options.weights)
     found = search(model, data, options)
     data = data.expecting(found.rms)
-    fits = _over_all([settle(found, data, data.settle, options)], [True], data)
+    fits = _over_all([settle(found, data, data.settle, options)], data)
     return _beside_the_instrument(fits, [found.layout], data, options)[0]
 
 
@@ -241,7 +242,7 @@ def fit_all(
     for each, on, end in zip(searches, parts, ends, strict=True):
         progress(f"fitting {candidate_label(each.layout.model)}")
         fits.append(settle(each, data, on, options, end))
-    fits = _over_all(fits, [each.rms <= OUTRUN * best for each in searches], data)
+    fits = _over_all(fits, data)
     return tuple(_beside_the_instrument(fits, [each.layout for each in searches], data, options))
 
 
@@ -250,11 +251,13 @@ def _best(searches: Iterable[Search]) -> float:
     return min((each.rms for each in searches), default=0.0)
 
 
-def _over_all(fits: list[Fit], near: list[bool], data: Prepared) -> list[Fit]:
-    """The same with the error of those that are near the best over a whole table, not only where it is compared."""
+def _over_all(fits: list[Fit], data: Prepared) -> list[Fit]:
+    """The same with the error of the best and of what comes near it over a whole table, not only where models are
+    compared: directions enough to tell the others from them."""
     if data.compared is data.whole:
         return fits
-    places = [place for place, each in enumerate(near) if each]
+    least = min((each.rms_ln for each in fits), default=0.0)
+    places = [place for place, each in enumerate(fits) if each.rms_ln <= TWINS * least]
     errors = rms_over_all([fits[place].surface for place in places], data.whole, data.sample_weights)
     known = dict(zip(places, errors, strict=True))
     return [replace(each, rms_ln=known.get(place, each.rms_ln)) for place, each in enumerate(fits)]
