@@ -1,11 +1,8 @@
 """Opening a file that may be compressed, without ever holding more than its format can honestly need."""
 
-import os
 import sys
 from contextlib import contextmanager
-from mmap import ACCESS_READ, mmap
 from pathlib import Path
-from typing import Any
 
 from ... import opening
 from ...errors import InputError
@@ -58,15 +55,13 @@ def _beyond(name: str, limit: int) -> InputError:
 
 
 def source_of(path, stream, head: bytes, format: Format, name: str) -> Source:
-    """The content of a file, mapped to memory or left where it lies if the format wants that and it is not packed.
+    """The content of a file, or left where it lies if the format wants that and it is not packed.
 
-    Raises InputError as `whole_content`.
+    Never mapped to memory: who cuts a mapped file short ends the process. Raises InputError as `whole_content`.
     """
     lies_there = not isinstance(path, opening.Held) and str(path) != "-" and opening.is_plain(path)
     if lies_there and stream.kind is None and format.in_place:
         return Source(name, b"", place=Path(path))
-    if lies_there and stream.kind is None and format.mapped:
-        return Source(name, mapped_content(path, name, format.limit))
     data = whole_content(stream, head, format.limit, name, swells=format.whole_table)
     return Source(name, data, left_behind(stream))
 
@@ -77,14 +72,6 @@ def left_behind(stream) -> tuple[Finding, ...]:
         return ()
     text = f"{stream.behind} bytes behind the {stream.kind} content belong to none and were left out"
     return (Finding("bytes-behind", text, "warning", numbers=(("bytes", stream.behind),)),)
-
-
-def mapped_content(path, name: str, limit: int) -> Any:
-    """All of a file that lies there as it is, mapped to memory. Raises InputError for more than `limit` bytes."""
-    with open(path, "rb") as file:
-        if os.fstat(file.fileno()).st_size > limit:
-            raise _beyond(name, limit)
-        return mmap(file.fileno(), 0, access=ACCESS_READ)
 
 
 class _Unpacked:
@@ -104,11 +91,11 @@ class _Unpacked:
         self.behind = 0
 
     def read(self, size: int) -> bytes:
-        got = bytearray()
-        while len(got) < size:
-            piece = self._piece(size - len(got))
-            if not piece:
-                break
+        piece = self._piece(size)
+        if not piece or len(piece) == size:
+            return piece
+        got = bytearray(piece)
+        while len(got) < size and (piece := self._piece(size - len(got))):
             got += piece
         return bytes(got)
 

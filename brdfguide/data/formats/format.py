@@ -46,7 +46,7 @@ class Source:
     """The bytes of a file and the name that errors call it by."""
 
     name: str
-    data: bytes | bytearray  # or a file mapped to memory
+    data: bytes | bytearray
     findings: tuple[Finding, ...] = ()  # about the file as such
     place: Path | None = None  # a file or folder that its format reads where it lies; there are no `data` then
 
@@ -117,7 +117,6 @@ class Format:
     read: Callable[[Source, Options], Measurement]
     limit: int = TEXT_LIMIT  # bytes beyond which such a file is not believed
     in_place: bool = False  # a file that lies there as it is is left there: a library reads of it what it needs
-    mapped: bool = False  # a file that lies there as it is is mapped to memory, and never held
     whole_table: bool = False  # a dense table with marks of its own for missing cells
     # of a dense table: the function (geometry) -> BRDF (samples, channels), NaN where it has none, and the channels'
     # names

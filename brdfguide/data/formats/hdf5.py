@@ -141,6 +141,8 @@ class _Content(io.RawIOBase):
         else:
             os.lseek(self.handle, self.at, os.SEEK_SET)
             piece = os.read(self.handle, len(into))
+            if not piece and self.at < self.size:  # else the library takes what lies in memory for numbers
+                raise OSError("the file was cut short while it was read")
         into[: len(piece)] = piece
         self.at += len(piece)
         return len(piece)

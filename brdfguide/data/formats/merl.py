@@ -166,4 +166,4 @@ def directions(theta_h: int, phis: int) -> dict[str, np.ndarray]:
     return {name: getattr(found, name).reshape(-1) for name in FIELDS if name != "phi_i_deg"}
 
 
-FORMAT = Format("merl", (".binary",), recognises, read, limit=LIMIT, mapped=True, whole_table=True, function=function)
+FORMAT = Format("merl", (".binary",), recognises, read, limit=LIMIT, whole_table=True, function=function)

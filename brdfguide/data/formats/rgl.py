@@ -266,6 +266,4 @@ def _checked(source: Source, fields):
     return fields
 
 
-FORMAT = Format(
-    "rgl", (".bsdf",), recognises, read, limit=LIMIT, mapped=True, function=function, options=("average_phi_i",)
-)
+FORMAT = Format("rgl", (".bsdf",), recognises, read, limit=LIMIT, function=function, options=("average_phi_i",))

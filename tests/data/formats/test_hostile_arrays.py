@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import shutil
 import signal
 
@@ -160,3 +161,14 @@ def test_what_is_read_of_a_file_is_touched_beforehand(tmp_path):
     cut = io.BytesIO(path.read_bytes()[:-400])
     with pytest.raises(OSError, match="truncated"):
         hdf5._hdf5_trial.touch(cut, h5py)
+
+
+def test_hdf5_that_is_cut_while_it_is_read_is_a_sentence(tmp_path):
+    """The library takes what lies in memory for numbers that it asked for and was not given."""
+    content = {name: np.repeat(values, 4000) for name, values in columns(9).items()}
+    path = filled(Hdf5(tmp_path / "wall"), content).done()
+    _, source = formats.opened(path)
+    tables = hdf5._tables(source)
+    os.truncate(path, path.stat().st_size // 2)
+    with pytest.raises(InputError, match="a damaged HDF5 table: the file was cut short while it was read"):
+        _named_arrays.read_table(source, tables, formats.Options())

@@ -2,14 +2,14 @@
 
 import gzip
 import lzma
-import mmap
+import os
 import struct
 
 import numpy as np
 import pytest
 
 from brdfguide.data import formats
-from brdfguide.data.formats import merl
+from brdfguide.data.formats import _open, merl
 from brdfguide.errors import InputError
 from brdfguide.physics.geometry import Geometry
 
@@ -106,18 +106,29 @@ def test_tables_at_hand_are_read_whole(data, name):
     assert measurement.channels == ("R", "G", "B")
 
 
-def test_a_file_that_lies_there_is_mapped_and_one_of_another_size_is_a_sentence(tmp_path, monkeypatch):
+def test_a_file_of_another_size_is_a_sentence_also_one_that_is_cut_while_it_is_read(tmp_path, monkeypatch):
     content = merl.packed(merl.table(lambda geom: np.full((len(geom), 3), 0.2)))
     path = tmp_path / "grey.binary"
     path.write_bytes(content)
     packed = tmp_path / "grey.binary.xz"
     packed.write_bytes(lzma.compress(content, preset=0))
     assert np.array_equal(formats.read(path).brdf, formats.read(packed).brdf)
-    _, source = formats.opened(path)
-    assert isinstance(source.data, mmap.mmap)
+    format, source = formats.opened(path)
+    os.truncate(path, 1000)  # of a file mapped to memory the process would end here
+    assert np.array_equal(format.read(source, formats.Options()).brdf, formats.read(packed).brdf)
     path.write_bytes(content[:-8])
     with pytest.raises(InputError, match="wanted 34992012 for a table"):
         formats.read(path)
     path.write_bytes(content + bytes(len(content) + 100))
     with pytest.raises(InputError, match="goes on beyond"):
+        formats.read(path)
+    path.write_bytes(content)
+    whole_content = _open.whole_content
+
+    def cut_before(*args, **options):
+        os.truncate(path, 10**7)
+        return whole_content(*args, **options)
+
+    monkeypatch.setattr(_open, "whole_content", cut_before)
+    with pytest.raises(InputError, match="found 10000000 bytes, wanted 34992012 for a table"):
         formats.read(path)
