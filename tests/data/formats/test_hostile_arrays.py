@@ -1,10 +1,14 @@
 """HDF5 and zarr that no honest program writes: a sentence each, and nothing read that is not there."""
 
+import gc
 import io
 import json
 import os
 import shutil
 import signal
+import zipfile
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,10 +17,11 @@ from brdfguide.data import formats
 from brdfguide.data.blocks import joined
 from brdfguide.data.formats import _named_arrays, hdf5
 from brdfguide.errors import InputError
-from tests.data.formats.test_named_arrays import Hdf5, Zarr, columns, filled
+from brdfguide.opening import Held
+from tests.data.formats.test_named_arrays import Hdf5, Zarr, Zipped, columns, filled
 
 
-@pytest.fixture(params=[Hdf5, Zarr], ids=["hdf5", "zarr"])
+@pytest.fixture(params=[Hdf5, Zarr, Zipped], ids=["hdf5", "zarr", "zipped"])
 def made(request, tmp_path):
     return request.param(tmp_path / "wall")
 
@@ -172,3 +177,33 @@ def test_hdf5_that_is_cut_while_it_is_read_is_a_sentence(tmp_path):
     os.truncate(path, path.stat().st_size // 2)
     with pytest.raises(InputError, match="a damaged HDF5 table: the file was cut short while it was read"):
         _named_arrays.read_table(source, tables, formats.Options())
+
+
+def test_a_zip_of_a_folder_is_read_as_the_folder_and_a_damaged_one_is_a_sentence(tmp_path, capsys):
+    folder = filled(Zarr(tmp_path / "wall"), columns(20)).done()
+    whole = formats.read(folder).brdf
+    path = Path(shutil.make_archive(str(tmp_path / "named"), "zip", tmp_path, folder.name))  # wall.zarr/zarr.json...
+    np.testing.assert_array_equal(formats.read(path).brdf, whole)
+    with pytest.raises(InputError, match="a ZIP of one, is read where it lies, not from a stream"):
+        formats.read(Held("-", path.read_bytes()))
+    raw = path.read_bytes()
+    for place in range(0, len(raw), len(raw) // 40):
+        path.write_bytes(raw[:place] + bytes([raw[place] ^ 255]) + raw[place + 1 :])
+        with suppress(InputError):
+            assert len(formats.read(path).brdf)
+        path.write_bytes(raw[: max(place, 60)])
+        with pytest.raises(InputError, match="a damaged zarr table: File is not a zip file"):
+            formats.read(path)
+    gc.collect()
+    assert not capsys.readouterr().err  # nor what asyncio says of errors that nobody asked for
+
+
+def test_a_zip_of_several_folders_or_of_zeros_is_a_sentence(tmp_path):
+    for name in ("first", "second"):
+        filled(Zarr(tmp_path / "both" / name), columns(9)).done()
+    with pytest.raises(InputError, match=r"2 zarr folders in it \(.*\); wanted one"):
+        formats.read(shutil.make_archive(str(tmp_path / "both"), "zip", tmp_path / "both"))
+    with zipfile.ZipFile(tmp_path / "zeros.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("zarr.json", bytes(2**24))
+    with pytest.raises(InputError, match="unpacks to more than 200 times its size"):
+        formats.read(tmp_path / "zeros.zip")

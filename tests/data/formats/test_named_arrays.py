@@ -2,7 +2,9 @@
 
 import gzip
 import json
+import shutil
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -74,7 +76,12 @@ class Zarr(Hdf5):
         return self.path
 
 
-@pytest.fixture(params=[Hdf5, Zarr], ids=["hdf5", "zarr"])
+class Zipped(Zarr):
+    def done(self):
+        return Path(shutil.make_archive(str(self.path), "zip", self.path))
+
+
+@pytest.fixture(params=[Hdf5, Zarr, Zipped], ids=["hdf5", "zarr", "zipped"])
 def made(request, tmp_path):
     return request.param(tmp_path / "wall")
 
