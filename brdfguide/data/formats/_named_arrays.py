@@ -21,7 +21,7 @@ from ...records import dataclass
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
-from ._tables import damage_told, sheet_of_columns
+from ._tables import damage_told, sheet_of_columns, with_unit
 from .format import Format, Options, Source
 
 MOST_CELLS = 50_000_000  # read at once
@@ -235,7 +235,7 @@ def _of_columns(source: Source, kind: str, group, place: str, columns: dict) -> 
             f"in {place} the attribute that names the columns does not go with its arrays: '{missing[:40]}'"
         )
     arrays = [columns[name] for name in order]
-    names = [_with_unit(name, each) for name, each in zip(order, arrays, strict=True)]
+    names = [with_unit(source, name, _unit(each)) for name, each in zip(order, arrays, strict=True)]
     return ArrayTable(
         kind,
         place,
@@ -297,9 +297,8 @@ def _text(value) -> str:
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
-def _with_unit(name: str, array) -> str:
-    unit = _text(array.attrs.get("units", "")).strip()
-    return f"{name} ({unit})" if unit and unit != "1" else name
+def _unit(array) -> str:
+    return _text(array.attrs.get("units", "")).strip()
 
 
 def _comments(node) -> tuple[str, ...]:

@@ -1,13 +1,20 @@
 """Sheets whose cells come from a library, as numbers under names, for the reader of tables of text."""
 
+import re
 from contextlib import contextmanager
 from importlib import import_module
 
 import numpy as np
 
 from ...errors import BrdfguideError, InputError
+from ..columns.facts import facts
 from ._sheet import Sheet
 from .format import Source
+
+# what zarr, numcodecs, HDF5 and Arrow say of a codec that they lack
+NOT_INSTALLED = re.compile(
+    r"unknown codec|codec not available|filter \S+ .*is not registered|codec .* not built", re.IGNORECASE
+)
 
 
 def library(name: str, extra: str, source: Source, what: str):
@@ -27,7 +34,25 @@ def damage_told(source: Source, what: str):
     except (BrdfguideError, MemoryError, Warning):
         raise
     except Exception as error:  # zlib.error, LZMAError, EOFError: each codec has its own
-        raise source.error(f"a damaged {what}: {' '.join(str(error).split())[:100]}") from None
+        text = " ".join(str(error).split())[:100]
+        if NOT_INSTALLED.search(text):
+            raise source.error(
+                f"packed with a codec that is not installed: {text}; install it, or pack it with gzip"
+            ) from None
+        raise source.error(f"a damaged {what}: {text}") from None
+
+
+def with_unit(source: Source, name: str, unit: str) -> str:
+    """A column's name and the unit that an attribute of it gives. Raises InputError where the name says another."""
+    if unit in ("", "1"):
+        return name
+    named, given = facts(name)[0].unit, facts(unit)[0].unit
+    if named and given and named != given:
+        raise source.error(
+            f"the column '{name[:40]}' is in {named} by its name and in {given} by its attribute 'units' "
+            f"('{unit[:40]}'); correct one of them"
+        )
+    return f"{name} ({unit})"
 
 
 def sheet_of_columns(source: Source, names: list[str], columns, first: int, comments: tuple[str, ...] = ()) -> Sheet:

@@ -103,11 +103,16 @@ class _Array(_Node):
         super().__init__(dataset, h5py)
         self.shape, self.chunks = dataset.shape, dataset.chunks
         self.plain = _hdf5_trial.holds_numbers_or_words(dataset.id.get_type(), h5py)
+        self.has_filter = h5py.h5z.filter_avail
         self.words = bool(h5py.check_string_dtype(dataset.dtype))
 
     def __getitem__(self, rows: slice):
         if not self.plain:
             raise TypeError(f"'{self.node.name[:40]}' holds {str(self.node.dtype)[:40]}, wanted numbers or words")
+        packing = self.node.id.get_create_plist()
+        for code, _, _, name in map(packing.get_filter, range(packing.get_nfilters())):
+            if not self.has_filter(code):
+                raise LookupError(f"filter {code} ({name.decode('latin-1')[:40]}) is not registered")
         return self.node.asstr("utf-8", "replace")[rows] if self.words else self.node[rows]
 
 

@@ -6,7 +6,7 @@ from ...errors import NothingLeft
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
-from ._tables import damage_told, library, sheet_of_columns
+from ._tables import damage_told, library, sheet_of_columns, with_unit
 from .format import Format, Options, Source
 
 MOST_CELLS = 50_000_000
@@ -50,7 +50,7 @@ def parts(source: Source, options: Options) -> Iterator[Measurement]:
             columns = [] if batch is None else [_cells(column) for column in batch.columns]
         if batch is None:
             return
-        sheet = sheet_of_columns(source, list(map(str, batch.schema.names)), columns, first)
+        sheet = sheet_of_columns(source, _names(source, batch.schema), columns, first)
         first += batch.num_rows
         try:
             yield _meaning.measurement_of(source, sheet, options, kind=KIND)
@@ -78,7 +78,13 @@ def _sheet(source: Source) -> Sheet:
         raise source.error(f"a damaged Parquet file: not every column holds the {rows} rows that it promises")
     with damage_told(source, FILE):
         cells = [_cells(column) for column in table.columns]
-    return sheet_of_columns(source, list(map(str, table.column_names)), cells, 1)
+    return sheet_of_columns(source, _names(source, table.schema), cells, 1)
+
+
+def _names(source: Source, schema) -> list[str]:
+    """Columns as they are called, with the unit that a field's metadata give."""
+    units = [(field.metadata or {}).get(b"units", b"").decode("utf-8", "replace").strip() for field in schema]
+    return [with_unit(source, str(field.name), unit) for field, unit in zip(schema, units, strict=True)]
 
 
 def _cells(column):

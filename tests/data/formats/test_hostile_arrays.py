@@ -179,6 +179,28 @@ def test_hdf5_that_is_cut_while_it_is_read_is_a_sentence(tmp_path):
         _named_arrays.read_table(source, tables, formats.Options())
 
 
+LACKS = "packed with a codec that is not installed: "
+
+
+def test_a_codec_that_is_not_installed_is_told_as_that(tmp_path):
+    folder = filled(Zarr(tmp_path / "wall"), columns(20)).done()
+    about = json.loads((folder / "R" / "zarr.json").read_text())
+    about["codecs"][-1] = {"name": "imaginary", "configuration": {}}
+    (folder / "R" / "zarr.json").write_text(json.dumps(about))
+    with pytest.raises(InputError, match=f"{LACKS}Unknown codec: 'imaginary'"):
+        formats.read(folder)
+    made = Hdf5(tmp_path / "wall")
+    for name, values in columns(20).items():
+        made.group.create_dataset(name, data=values, compression="gzip")
+    path = made.done()
+    content = path.read_bytes()
+    place = content.index(b"deflate\0") - 8
+    assert content[place : place + 2] == b"\1\0"  # the number of the filter
+    path.write_bytes(content[:place] + b"\x0f\x7d" + content[place + 2 :])
+    with pytest.raises(InputError, match=rf"{LACKS}filter 32015 \(deflate\) is not registered"):
+        formats.read(path)
+
+
 def test_a_zip_of_a_folder_is_read_as_the_folder_and_a_damaged_one_is_a_sentence(tmp_path, capsys):
     folder = filled(Zarr(tmp_path / "wall"), columns(20)).done()
     whole = formats.read(folder).brdf

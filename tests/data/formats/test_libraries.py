@@ -57,6 +57,21 @@ def test_a_damaged_workbook_is_a_sentence(tmp_path):
             read(tmp_path, damaged, "it.xlsx")
 
 
+def test_units_in_a_parquet_fields_metadata_are_heeded(tmp_path):
+    pyarrow = pytest.importorskip("pyarrow")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    rows = np.array(ROWS)
+    for name, factor in (("theta_i", np.pi / 180), ("theta_i_deg", 1.0)):
+        fields = [pyarrow.field(each, pyarrow.float64()) for each in (name, "theta_r_deg", "brdf")]
+        fields[0] = fields[0].with_metadata({"units": "rad"})
+        table = pyarrow.table([rows[:, 0] * factor, rows[:, 1], rows[:, 2]], schema=pyarrow.schema(fields))
+        parquet.write_table(table, tmp_path / f"{name}.parquet")
+    measurement = formats.read(tmp_path / "theta_i.parquet")
+    np.testing.assert_allclose(measurement.brdf, truth(measurement.geom), rtol=1e-12)
+    with pytest.raises(InputError, match="'theta_i_deg' is in deg by its name and in rad by its attribute 'units'"):
+        formats.read(tmp_path / "theta_i_deg.parquet")
+
+
 def test_a_parquet_table_is_read_as_a_table_is(tmp_path):
     pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     columns = dict(zip(("theta_i", "theta_r", "brdf"), map(list, zip(*ROWS, strict=True)), strict=True))

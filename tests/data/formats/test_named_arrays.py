@@ -139,6 +139,16 @@ def test_an_attribute_says_the_order(made):
     assert formats.read(path).channels == ("B", "R", "G")
 
 
+@pytest.mark.parametrize(("name", "units"), [("theta_i_deg", "rad"), ("phi_r_rad", "degree")])
+def test_a_unit_that_contradicts_the_name_is_a_sentence(name, units, made):
+    content = columns(9)
+    content = {name if key[:5] == name[:5] else key: each for key, each in content.items()}
+    values = content.pop(name)
+    path = filled(made, content).array(name, values, units=units).done()
+    with pytest.raises(InputError, match=rf"'{name}' is in (deg|rad) by its name and in .* 'units' \('{units}'\)"):
+        formats.read(path)
+
+
 def test_units_marks_and_packing_are_heeded(made):
     content = columns(100)
     brdf = np.round(content["G"] * 1e4).astype("i4")
