@@ -1,7 +1,7 @@
 """What `recommend` makes of measurements, alone or beside a description."""
 
 from .. import printable
-from ..errors import InputError
+from ..errors import BrdfguideError, InputError
 from ..opening import exists, is_plain
 from ._described import Data
 from ._fitting import expressions
@@ -9,34 +9,45 @@ from ._numbers import numbers_of
 from ._options import print_json, progress, tell, working
 from ._report import show_ranking
 from ._scene import of_ranking
+from ._streams import whisper
 from ._surface import export_fitted
 
 
 def with_measurements(answers, measured: list[Data], request) -> None:
-    """Guidelines choose and start, the fit decides, disagreements are shown. `request` is a RecommendRequest."""
+    """Guidelines choose and start, the fit decides, disagreements are shown. `request` is a RecommendRequest.
+
+    Of several measurements each is answered that can be, and the others are told.
+    """
     from ..report.documents import recommendation
     from ..report.text import ranking
     from ..report.text.recommendation import measured_text, text
 
     advised, output = answers[0] if answers else None, request.output
     advised_document = recommendation.document(advised, output.timing, request.explain) if advised else None
-    results, texts, failed = [], [], []
+    results, texts, failed = list[dict](), list[str](), list[BrdfguideError]()
     for each in measured:
-        result, scene, error = _with_measurement(advised, advised_document, each, request)
+        try:
+            result, scene, stopped = _with_measurement(advised, advised_document, each, request)
+        except BrdfguideError as error:
+            failed.append(error)
+            continue
         results.append(result)
         shown = printable.document(result)
-        texts.append(
-            f"{measured_text(shown)}\n\n{ranking.ranking_text(shown, notes=not output.quiet, full=request.full)}{scene}"
-        )
-        failed.append(error)
-    if output.json:
-        print_json(results[0] if len(results) == 1 else {"schema": "brdfguide/recommend/1", "recommendations": results})
-    else:
+        named = [printable.line(str(each.path))] if len(measured) > 1 else []
+        ranked = ranking.ranking_text(shown, notes=not output.quiet, full=request.full)
+        texts.append("\n\n".join([*named, measured_text(shown), ranked]) + scene)
+        failed += [stopped] if stopped else []
+    if results and output.json:
+        several = {"schema": "brdfguide/recommend/1", "recommendations": results}
+        print_json(several if len(measured) > 1 else results[0])
+    elif results:
         head = [text(printable.document(advised_document), request.explain, request.full)] if advised_document else []
         tell("\n\n".join([*head, *texts]))
-    for error in failed:
-        if error:
-            raise error
+    failed.sort(key=lambda error: error.exit_status)
+    for told in failed[:-1]:
+        whisper(f"brdfguide: {told}")
+    if failed:
+        raise failed[-1]
 
 
 def _read(file: Data, job):

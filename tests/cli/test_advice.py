@@ -137,6 +137,20 @@ def test_several_bad_files_are_named_at_once(tmp_path):
     assert "a.yaml:1:1: no key called 'knid'" in done.stderr and "b.yaml:1:5: 'f0' is 2" in done.stderr
 
 
+def test_of_several_measurements_each_is_answered_that_can_be(tmp_path):
+    bad = tmp_path / "bad.csv"
+    bad.write_text("a,b\n1,2\n")
+    files = [str(ROOT / "examples" / "white_paper.csv"), str(bad), str(ROOT / "examples" / "white_paper.csv")]
+    words = ("-m", "lambertian,oren-nayar", "--no-numbers")
+    done = run("recommend", *files, *words, status=2)
+    assert done.stdout.count("recommended: ") == 2 and done.stdout.count("white_paper.csv\n\n") == 2
+    assert done.stderr.count("no column for theta_i") == 1
+    found = json.loads(run("recommend", *files[:2], *words, "--json", status=2).stdout)
+    assert len(found["recommendations"]) == 1
+    done = run("recommend", str(bad), str(bad), *words, status=2)
+    assert not done.stdout and done.stderr.count("no column for theta_i") == 2
+
+
 def test_models_of_the_users_choice_are_started_too():
     found = answer("recommend", "rough-plastic", "--models", "lambertian+ward,lambertian+cook-torrance")
     assert [each["model"] for each in found["candidates"]] == ["lambertian+ward", "lambertian+cook-torrance"]
