@@ -9,6 +9,7 @@ import os
 import pickle
 import queue
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -16,10 +17,18 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import IO, Any, NamedTuple
 
+from .keys import engine
 from .workers import Died
 
 TRIES = 2  # of a task whose process ended
 HERE = threading.local()  # the process of this thread
+
+
+class Asker(NamedTuple):
+    """Who hands out a batch."""
+
+    folder: str  # where it runs: what relative names mean
+    engine: str  # the fingerprint of its program, after which answers are named
 
 
 class PartOfBatch(NamedTuple):
@@ -27,6 +36,19 @@ class PartOfBatch(NamedTuple):
 
     do: Callable[[Any], Any]
     tasks: Sequence[Any]
+    asker: Asker
+
+
+class OtherProgram(NamedTuple):
+    """In place of a result: what is here would give another answer than the one that was asked for."""
+
+    host: str
+    engine: str
+
+
+def asker() -> Asker:
+    """This process."""
+    return Asker(os.getcwd(), engine())
 
 
 class _Process(NamedTuple):
@@ -36,24 +58,27 @@ class _Process(NamedTuple):
 
 
 def answer_part(part: PartOfBatch) -> list:
-    """do(task) of each, or a Died."""
-    return [_asked(part.do, task) for task in part.tasks]
+    """do(task) of each, or a Died, or an OtherProgram."""
+    return [_asked(part.do, task, part.asker) for task in part.tasks]
 
 
-def _asked(do: Callable[[Any], Any], task: Any) -> Any:
+def _asked(do: Callable[[Any], Any], task: Any, by: Asker) -> Any:
+    result: Any = None
     for _ in range(TRIES):
         mine = getattr(HERE, "process", None) or _started()
         HERE.process = None  # until it has answered, it is none to go on with
         try:
-            pickle.dump((do, task), mine.asked)
+            pickle.dump((do, task, by), mine.asked)
             mine.asked.flush()
             result = pickle.load(mine.answers)
         except (EOFError, OSError, pickle.UnpicklingError):
-            how = _gone(mine)
+            result = Died(f"not done, twice: its process ended with status {_gone(mine)}", TRIES)
             continue
-        HERE.process = mine
-        return result
-    return Died(f"not done, twice: its process ended with status {how}", TRIES)
+        if not isinstance(result, OtherProgram):
+            HERE.process = mine
+            return result
+        _gone(mine)  # it may be older than what is on the disk now
+    return result
 
 
 def _gone(mine: _Process) -> int:
@@ -77,21 +102,31 @@ def serve() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # who asked for this process ends it
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what is printed meanwhile is no answer
+    mine = engine()  # of what is loaded here, now
     asked: queue.SimpleQueue = queue.SimpleQueue()
     threading.Thread(target=_read, args=(sys.stdin.buffer, asked), daemon=True).start()
     while True:
-        do, task = asked.get()
-        try:
-            result = do(task)
-        except Exception as error:
-            result = Died(f"not done: its worker says {type(error).__name__}: {error}", 1)
+        do, task, by = asked.get()
+        result: Any = OtherProgram(socket.gethostname(), mine)
+        if by.engine == mine:
+            result = _done(do, task, by.folder)
         pickle.dump(result, answers)
         answers.flush()
 
 
+def _done(do: Callable[[Any], Any], task: Any, folder: str) -> Any:
+    """do(task) where relative names are of that folder; where it is not, they are of none."""
+    try:
+        os.chdir(folder if os.path.isdir(folder) else os.path.abspath(os.sep))
+        return do(task)
+    except Exception as error:
+        return Died(f"not done: its worker says {type(error).__name__}: {error}", 1)
+
+
 def _read(stream: IO[bytes], asked: queue.SimpleQueue) -> None:
-    """Ends this process with the stream, whatever it is doing."""
-    with suppress(EOFError, OSError):
+    """Ends this process with the stream, whatever it is doing, and with what it cannot understand."""
+    try:
         while True:
             asked.put(pickle.load(stream))
-    os._exit(1)
+    finally:
+        os._exit(1)

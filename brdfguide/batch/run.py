@@ -4,6 +4,7 @@ An answer is kept under the name of all that it follows from, written whole or n
 only what is missing, and several runs may share a folder.
 """
 
+import re
 import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -35,6 +36,7 @@ from .states import (
     failed_row,
 )
 from .store import STALE_S, Store
+from .unchanged import Stamp, stamp_of
 from .work import MadeAnswer, Work
 from .workers import UNLIMITED, Done, Ended, Limits, OverTime
 
@@ -51,6 +53,7 @@ class Task:
     store: Store | None = None
     key: str = ""
     data: DataBytes = DataBytes("", 0)
+    stamp: Stamp = ()  # of all that was read for the key
     limits: Limits = UNLIMITED
     told: Path | None = None  # a folder, where each process notes in a file what it begins
 
@@ -200,9 +203,12 @@ def _answered(task: Task) -> FileRow:
         words = f"{task.label}: there is not enough memory for it"
         return _noted(task, failed_row(task.label, OUT_OF_MEMORY, words, key=task.key))
     except Exception as error:
-        return _noted(task, failed_row(task.label, BAD_INPUT, f"{task.label}: {mistake(error)}", key=task.key))
+        row = failed_row(task.label, BAD_INPUT, f"{task.label}: {mistake(error)}", key=task.key)
+        return row if isinstance(error, OSError) else _noted(task, row)  # too many open files, say, pass
     row = _row(task, made.document, ANSWERED, None)
     if task.store is not None:
+        if not _is_unchanged(task):
+            return failed_row(task.label, BAD_INPUT, f"{task.label}: it was written anew meanwhile; run it again")
         try:
             task.store.keep(task.key, _named_by_content(made.document, task))
         except InputError as error:
@@ -266,8 +272,8 @@ def _named(task: Task, row: FileRow, products: dict) -> FileRow:
 
 
 def _noted(task: Task, row: FileRow) -> FileRow:
-    """The row of a failure, kept beside the answers."""
-    if task.store is None:
+    """The row of a failure, kept beside the answers; not where it may be of other data."""
+    if task.store is None or not _is_unchanged(task):
         return row
     limits = list(task.limits)
     record = {"state": row.state, "error": row.error, "file": task.label, "tries": row.tries, "limits": limits}
@@ -284,14 +290,31 @@ def _placed(task: Task, store: Store | None, again: Again) -> Task | FileRow:
         file = _held(task.file, again.limits.seconds)  # no other process has our standard input
         if store is None:
             return replace(task, file=file)
-        data = bytes_of(file) if isinstance(file, opening.Held) or opening.exists(file) else DataBytes("", 0)
-        key = key_of(task.work.asked(), data, beside(task.work.reads(file)))
+        placed = _named_by_data(replace(task, file=file))
     except TimeoutError:
         return failed_row(task.label, TIMED_OUT, f"{task.label}: not read within {again.limits.seconds:g} seconds")
     except BrdfguideError as error:
         return failed_row(task.label, BAD_INPUT, str(error))
-    placed = replace(task, file=file, store=store, key=key, data=data, limits=again.limits)
+    placed = replace(placed, store=store, limits=again.limits)
     return _before(placed, again) or placed
+
+
+def _named_by_data(task: Task) -> Task:
+    """The task with its answer's name, as the data are now. Raises InputError where they cannot be read."""
+    reads = task.work.reads(task.file)
+    stamp = stamp_of([task.file, *reads])  # before they are read, so that a change meanwhile is seen
+    there = isinstance(task.file, opening.Held) or opening.exists(task.file)
+    data = bytes_of(task.file) if there else DataBytes("", 0)
+    return replace(task, key=key_of(task.work.asked(), data, beside(reads)), data=data, stamp=stamp)
+
+
+def _is_unchanged(task: Task) -> bool:
+    """Whether the data are still those that the answer is named after; read again only where they may be others."""
+    try:
+        same = stamp_of([task.file, *task.work.reads(task.file)]) == task.stamp
+        return same or _named_by_data(task).key == task.key
+    except BrdfguideError:
+        return False
 
 
 def _held(file: Path | opening.Held, seconds: float | None) -> Path | opening.Held:
@@ -346,7 +369,10 @@ def _failed_before(task: Task, again: Again) -> FileRow | None:
         return None
     if found["state"] in (TIMED_OUT, OUT_OF_MEMORY) and list(again.limits) != found.get("limits"):
         return None
-    error = found["error"].replace(str(found.get("file")), task.label)
+    if found["state"] == OUT_OF_MEMORY and again.limits.memory_mb is None:
+        return None  # of that machine, at that moment
+    named = re.compile(rf"^{re.escape(str(found.get('file')))}(?=\W)", re.MULTILINE)
+    error = named.sub(lambda _: task.label, found["error"])
     return _named(task, failed_row(task.label, found["state"], error, key=task.key, from_before=True), {})
 
 

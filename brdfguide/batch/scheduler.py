@@ -4,12 +4,15 @@ Small parts are handed out, not single tasks; what of a part was answered before
 again, since `do` looks whether it is.
 """
 
+import logging
 from collections.abc import Callable, Generator, Iterator
 from itertools import islice
 from typing import Any
 
+from .. import printable
 from ..errors import EngineLost, InputError
-from .far import PartOfBatch, answer_part
+from .far import OtherProgram, PartOfBatch, answer_part, asker
+from .keys import engine
 from .workers import Died, Done
 
 WAITED_S = 10.0  # for the scheduler
@@ -31,6 +34,7 @@ def by_scheduler(
     not there or the address is none, EngineLost where nobody answers, or no longer.
     """
     client, as_completed = _connected(address)
+    by = asker()
     try:
         running = as_completed(loop=client.loop)
         numbers: dict[Any, list[int]] = {}
@@ -46,7 +50,7 @@ def by_scheduler(
                 if part:
                     for number in part:
                         tell(number, 1)
-                    future = client.submit(answer_part, PartOfBatch(do, list(part.values())), pure=False)
+                    future = client.submit(answer_part, PartOfBatch(do, list(part.values()), by), pure=False)
                     numbers[future] = list(part)
                     running.add(future)
             if numbers:
@@ -64,6 +68,9 @@ def _connected(address: str):
         from distributed import Client, as_completed
     except ImportError:
         raise InputError(EXTRA) from None
+    logging.getLogger("distributed.client").setLevel(
+        logging.CRITICAL
+    )  # its traceback of a lost scheduler is our sentence
     try:
         return Client(address, timeout=WAITED_S, set_as_default=False), as_completed
     except ValueError as error:
@@ -75,15 +82,28 @@ def _connected(address: str):
 def _results(future, numbers: list[int], address: str) -> Iterator[tuple[int, Any]]:
     """What became of a part."""
     if future.status == "finished":
-        return zip(numbers, future.result(), strict=True)
+        results = future.result()
+        for other in results:
+            if isinstance(other, OtherProgram):
+                raise _unlike(address, f"found {other.engine[:12]} on {other.host}, wanted {engine()[:12]}")
+        return zip(numbers, results, strict=True)
     if future.status == "error":
         error = future.exception()
         if type(error).__name__ == "KilledWorker":
             words = "every worker that had it was ended, perhaps for want of memory"
-        else:
+        elif isinstance(error, (OSError, MemoryError)):
             words = f"its worker says {type(error).__name__}: {error}"
+        else:  # it cannot even be handed over
+            raise _unlike(address, printable.line(f"{type(error).__name__}: {str(error).partition('. ')[0]}"))
         return ((number, Died(f"not done: {words}", 1)) for number in numbers)
     raise _lost(address, f"a task is {future.status}")
+
+
+def _unlike(address: str, found: str) -> EngineLost:
+    return EngineLost(
+        f"--scheduler {address}: its machines have another brdfguide, or none ({found}); answers are named after the "
+        "program that asks for them: install the same one on the scheduler and on every worker"
+    )
 
 
 def _lost(address: str, why: str) -> EngineLost:

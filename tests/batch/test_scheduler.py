@@ -108,10 +108,28 @@ def own_process():
 
 
 def test_a_file_whose_process_was_ended_is_tried_once_more(tmp_path, own_process):
-    one, other = far.answer_part(far.PartOfBatch(far_tasks.ended_once, [tmp_path / "one", tmp_path / "one"]))
+    one, other = far.answer_part(far.PartOfBatch(far_tasks.ended_once, [tmp_path / "one"] * 2, far.asker()))
     assert one == other != os.getpid()  # and the process goes on with the next
-    (died,) = far.answer_part(far.PartOfBatch(far_tasks.ended, [0]))
+    (died,) = far.answer_part(far.PartOfBatch(far_tasks.ended, [0], far.asker()))
     assert isinstance(died, Died) and died.words == "not done, twice: its process ended with status 3"
+
+
+def test_what_would_be_answered_by_another_program_is_not(cluster, own_process, monkeypatch):
+    """Answers are named after the program that asks, so that one of another would be served as its own."""
+    other = far.asker()._replace(engine="0" * 64)
+    (found,) = far.answer_part(far.PartOfBatch(far_tasks.double, [2], other))
+    assert isinstance(found, far.OtherProgram) and found.engine == far.asker().engine
+    assert far.answer_part(far.PartOfBatch(far_tasks.double, [2], far.asker())) == [4]
+    monkeypatch.setattr("brdfguide.batch.scheduler.asker", lambda: other)
+    with pytest.raises(EngineLost, match="another brdfguide, or none .*install the same one"):
+        list(by_scheduler(far_tasks.double, iter([(0, 1)]), cluster[0]))
+
+
+def test_relative_names_are_of_where_the_command_was_given(tmp_path, own_process):
+    here = os.getcwd()
+    for folder, wanted in ((str(tmp_path), str(tmp_path)), (str(tmp_path / "none"), os.path.abspath(os.sep))):
+        part = far.PartOfBatch(far_tasks.folder, [0], far.asker()._replace(folder=folder))
+        assert far.answer_part(part) == [wanted] and os.getcwd() == here
 
 
 ASKING = """
@@ -120,7 +138,7 @@ from pathlib import Path
 from brdfguide.batch import far
 from tests.batch import far_tasks
 if __name__ == "__main__":
-    far.answer_part(far.PartOfBatch(far_tasks.asleep, [Path(sys.argv[1])]))
+    far.answer_part(far.PartOfBatch(far_tasks.asleep, [Path(sys.argv[1])], far.asker()))
 """
 
 
