@@ -14,8 +14,9 @@ import os
 import sqlite3
 import time
 from collections.abc import Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from ..errors import BrdfguideError, InputError
 from .store import Store
@@ -23,6 +24,7 @@ from .store import Store
 SCHEMA = "brdfguide/collected/1"
 INDEX = "collected.sqlite"  # in a folder of answers
 JUST_NOW_NS = 2 * 10**9
+WAITED_S = 300.0  # for another process that collects into the same file
 COLUMNS = {
     "sha256": "TEXT",  # of the data
     "fingerprint": "TEXT",  # of the program
@@ -90,7 +92,7 @@ def _stamps(folder: Path) -> dict[str, int | None]:
     A clock has steps, and more may be written within one.
     """
     with suppress(OSError), os.scandir(folder) as inside:
-        each = {os.path.abspath(entry.path): entry.stat().st_mtime_ns for entry in inside}
+        each = {as_text(os.path.abspath(entry.path)): entry.stat().st_mtime_ns for entry in inside}
         return {path: ns if time.time_ns() - ns > JUST_NOW_NS else None for path, ns in each.items()}
     return {}
 
@@ -110,7 +112,7 @@ def _bring_answers(base: sqlite3.Connection, store: Store) -> int:
     for path in store.folder.glob("answers/*/*"):
         key, _, kind = path.name.partition(".")
         if kind != "json" and not key.startswith("."):
-            base.execute("INSERT INTO product VALUES (?, ?, ?)", (key, kind, _utf8(str(path))))
+            base.execute("INSERT INTO product VALUES (?, ?, ?)", (key, kind, as_text(str(path))))
     return new
 
 
@@ -122,7 +124,9 @@ def opened(path: Path, make: bool = False) -> Iterator[sqlite3.Connection]:
             f"{path}: there is no such file; wanted what `brdfguide collect` makes, or a folder of answers"
         )
     try:
-        with closing(sqlite3.connect(path)) as base:
+        with closing(sqlite3.connect(path, WAITED_S)) as base:
+            if make:
+                base.execute("BEGIN IMMEDIATE")  # or two would each add what they both found new
             said = base.execute("SELECT name FROM sqlite_master WHERE name = 'brdfguide'").fetchone()
             tables = base.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
             if said is None and (tables or not make):
@@ -130,20 +134,45 @@ def opened(path: Path, make: bool = False) -> Iterator[sqlite3.Connection]:
             if said is None:
                 _made(base)
             elif base.execute("SELECT schema FROM brdfguide").fetchone() != (SCHEMA,):
-                raise InputError(f"{path}: another version of brdfguide made it; collect into another file")
+                raise Unreadable(f"{path}: another version of brdfguide made it; collect into another file")
             yield base
     except sqlite3.Error as error:
-        raise InputError(f"{path}: {error}; wanted what `brdfguide collect` makes") from None
+        kind = InputError if isinstance(error, sqlite3.OperationalError) else Unreadable  # such as locked, full
+        raise kind(f"{path}: {error}; wanted what `brdfguide collect` makes") from None
+
+
+class Unreadable(InputError):
+    """A database that is damaged, or of another version."""
+
+
+@contextmanager
+def collected(store: Store, path: Path | None = None) -> Iterator[tuple[sqlite3.Connection, int, int]]:
+    """A database brought up to the folder, how many answers it holds, and how many of them are new.
+
+    Without a path it lies in the folder, if that can be written, and is made anew where it is damaged. Raises
+    InputError where the file is no such database or cannot be written.
+    """
+    with ExitStack() as stack:
+        if path is not None:
+            counts = collect_into(store, path)
+        else:
+            is_open = os.access(store.folder, os.W_OK)
+            path = (store.folder if is_open else Path(stack.enter_context(TemporaryDirectory()))) / INDEX
+            try:
+                counts = collect_into(store, path)
+            except Unreadable:
+                path.unlink()
+                counts = collect_into(store, path)
+        yield stack.enter_context(opened(path)), *counts
 
 
 def _made(base: sqlite3.Connection) -> None:
-    with base:
-        for table in TABLES:
-            base.execute(f"CREATE TABLE {table}")
-        for table in ("name", "parameter", "ranking", "product"):
-            base.execute(f"CREATE INDEX {table}_key ON {table}(key)")
-        base.execute("CREATE TABLE brdfguide(schema TEXT)")
-        base.execute("INSERT INTO brdfguide VALUES (?)", (SCHEMA,))
+    for table in TABLES:
+        base.execute(f"CREATE TABLE {table}")
+    for table in ("name", "parameter", "ranking", "product"):
+        base.execute(f"CREATE INDEX {table}_key ON {table}(key)")
+    base.execute("CREATE TABLE brdfguide(schema TEXT)")
+    base.execute("INSERT INTO brdfguide VALUES (?)", (SCHEMA,))
 
 
 def _forget(base: sqlite3.Connection, key: str) -> None:
@@ -153,7 +182,7 @@ def _forget(base: sqlite3.Connection, key: str) -> None:
 
 def _bring_names(base: sqlite3.Connection, store: Store) -> int:
     base.execute("DELETE FROM name")
-    base.executemany("INSERT INTO name VALUES (?, ?)", ((_utf8(file), key) for file, key in store.names()))
+    base.executemany("INSERT INTO name VALUES (?, ?)", ((as_text(file), key) for file, key in store.names()))
     return 0
 
 
@@ -162,12 +191,18 @@ def _bring_failures(base: sqlite3.Connection, store: Store) -> int:
     for path in store.folder.glob("failed/*/*.json"):
         found = store.failure(path.stem)
         if found is not None:
-            row = (path.stem, _utf8(str(found.get("file"))), found["state"], _utf8(found["error"]), found.get("tries"))
+            row = (
+                path.stem,
+                as_text(str(found.get("file"))),
+                found["state"],
+                as_text(found["error"]),
+                found.get("tries"),
+            )
             base.execute("INSERT OR REPLACE INTO failure VALUES (?, ?, ?, ?, ?)", row)
     return 0
 
 
-def _utf8(text: str) -> str:
+def as_text(text: str) -> str:
     """A name as a database holds it: bytes that are no UTF-8 are shown as such."""
     return text.encode(errors="backslashreplace").decode()
 
@@ -176,21 +211,21 @@ def _add(base: sqlite3.Connection, key: str, document: dict) -> bool:
     """Whether the answer could be read."""
     from .described_rows import described_row  # models and figures, which a search by words needs nothing of
 
+    places: list[tuple] = []
+    parameters: list[tuple] = []
     try:
         row, vector = described_row(document)
+        channels = document["data"]["channels"]
+        for entry in document["ranking"]:
+            errors = entry["rms_ln"], entry["held_out_rms_ln"], entry["seen"], entry["free_parameters"]
+            places.append((key, entry["candidate"], entry["rank"], *errors))
+            parameters += _parameters(key, entry, channels)
     except (BrdfguideError, KeyError, TypeError, ValueError):
         return False
     names = list(COLUMNS)
     marks = ", ".join("?" for _ in range(len(names) + 1))
     base.execute(f"INSERT OR REPLACE INTO fit VALUES ({marks})", (key, *(row[name] for name in names)))
     base.execute("INSERT OR REPLACE INTO look VALUES (?, ?, ?)", (key, vector.shape[1], vector.tobytes()))
-    channels = document["data"]["channels"]
-    places: list[tuple] = []
-    parameters: list[tuple] = []
-    for entry in document["ranking"]:
-        errors = entry["rms_ln"], entry["held_out_rms_ln"], entry["seen"], entry["free_parameters"]
-        places.append((key, entry["candidate"], entry["rank"], *errors))
-        parameters += _parameters(key, entry, channels)
     base.executemany("INSERT INTO ranking VALUES (?, ?, ?, ?, ?, ?, ?)", places)
     base.executemany("INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?)", parameters)
     return True

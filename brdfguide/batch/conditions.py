@@ -9,7 +9,7 @@ from ..records import dataclass
 from .collected import COLUMNS
 
 NUMBERS = [name for name, kind in COLUMNS.items() if kind != "TEXT"]
-TEXTS = ("kind", "recommended", "flags", "file")
+TEXTS = ("kind", "recommended", "flags", "file", "no_answer")
 SHOWN = ("file", "recommended", "kind", "gloss60", "albedo", "f0", "alpha_equivalent", "rms_ln")
 # 60-degree gloss by the levels of the Master Painters Institute: G3 and G4, eggshell and satin like, 10 to 35; G5,
 # semi-gloss, 35 to 70; G6, gloss, 70 to 85; G7, high gloss, above. Below 10 ISO 2813 reads at 85 degrees: matt.
@@ -35,6 +35,7 @@ class Condition:
     low: float = -inf
     high: float = inf
     text: str | None = None
+    strict: bool = False  # whether the bounds themselves are out
 
 
 def conditions(query: str) -> list[Condition]:
@@ -53,18 +54,21 @@ def _condition(text: str, word: str) -> Condition:
     if not matched:
         raise choices("word or NAME=VALUE", word, [*WORDS, *(f"{name}=" for name in (*TEXTS, *NUMBERS))])
     column, sign, value = matched.groups()
-    if sign == "=" and (column in TEXTS or column == "no_answer"):
+    if sign == "=" and column in TEXTS:
         return Condition(column, text=value)
     if column not in NUMBERS:
         raise choices("number to search by", column, NUMBERS)
     span = fullmatch(rf"({NUMBER})?\.\.({NUMBER})?", value)
     if sign == "=" and span and (span[1] or span[2]):
-        return Condition(column, float(span[1] or -inf), float(span[2] or inf))
+        low, high = float(span[1] or -inf), float(span[2] or inf)
+        if low > high:
+            raise InputError(f"{word}: found {low:g} before {high:g}; wanted LOW..HIGH")
+        return Condition(column, low, high)
     if not fullmatch(NUMBER, value):
         raise InputError(f"{word}: wanted a number, or LOW..HIGH behind =")
     number = float(value)
     if sign in "<>":
-        return Condition(column, high=number) if sign == "<" else Condition(column, low=number)
+        return Condition(column, **{"high" if sign == "<" else "low": number}, strict=True)
     margin = ABOUT * abs(number) if sign == "~" else 0.0
     return Condition(column, number - margin, number + margin)
 
@@ -75,16 +79,27 @@ def matching(base: sqlite3.Connection, asked: list[Condition], *more: str) -> li
     where: list[str] = ["1"]
     values: list[str | float] = []
     for each in asked:
-        if each.column == "no_answer":
-            where.append("fit.no_answer IS NULL")
-        elif each.text is not None:
-            name = "name.file" if each.column == "file" else f"fit.{each.column}"
-            where.append(f"{name} GLOB ?" if set("*?[") & set(each.text) else f"{name} = ?")
-            values.append(each.text)
+        if each.text is not None:
+            name, pattern = _like(each.column, each.text)
+            where.append(f"{name} GLOB ?")
+            values.append(pattern)
         else:
-            where.append(f"fit.{each.column} BETWEEN ? AND ?")
+            low, high = (">", "<") if each.strict else (">=", "<=")
+            where.append(f"fit.{each.column} {low} ? AND fit.{each.column} {high} ?")
             values += [max(each.low, -1e300), min(each.high, 1e300)]
     names = ["key", *SHOWN, *more]
     columns = ", ".join("name.file" if name == "file" else f"fit.{name}" for name in names)
     lines = f"SELECT {columns} FROM name JOIN fit USING (key) WHERE {' AND '.join(where)} ORDER BY file"
     return [dict(zip(names, row, strict=True)) for row in base.execute(lines, values)]
+
+
+def _like(column: str, text: str) -> tuple[str, str]:
+    """What is compared, and with which pattern: * and ? stand for what they do, [ for itself; of files alone large
+    letters are other letters; of flags it is one among several."""
+    pattern = text.replace("[", "[[]")
+    if column == "file":
+        return "name.file", pattern
+    name, pattern = f"lower(ifnull(fit.{column}, ''))", pattern.lower()
+    if column == "flags" and text:
+        return f"',' || {name} || ','", f"*,{pattern},*"
+    return name, pattern

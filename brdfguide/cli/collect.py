@@ -1,5 +1,6 @@
 """`brdfguide collect DIR -o all.sqlite`: the answers of a folder as one table."""
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -40,11 +41,11 @@ def collect(request: CollectRequest) -> None:
     if kind not in SUFFIXES:
         raise InputError(f"-o {request.output}: wanted one of {', '.join(SUFFIXES)}")
     store = known_store(request.folder)
-    base_path = request.output if kind in (".sqlite", ".db") else store.folder / collected.INDEX
-    with working(f"collecting {request.folder}", request.quiet):
-        count, new = collected.collect_into(store, base_path)
-    with collected.opened(base_path) as base:
-        if base_path is not request.output:
+    base_path = request.output if kind in (".sqlite", ".db") else None
+    with ExitStack() as stack:
+        with working(f"collecting {request.folder}", request.quiet):
+            base, count, new = stack.enter_context(collected.collected(store, base_path))
+        if base_path is None:
             flat_files.write_table(collected.flat_rows(base), collected.FLAT, request.output)
         files = base.execute("SELECT count(*) FROM name JOIN fit USING (key)").fetchone()[0]
         failed = base.execute("SELECT count(*) FROM failure").fetchone()[0]

@@ -1,5 +1,6 @@
 """`brdfguide search DIR 'satin, kind=dielectric'`: surfaces among many answers, by words, numbers and looks."""
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -50,6 +51,7 @@ def search(request: SearchRequest) -> None:
     """Find surfaces among many answers: by words and numbers, by how they look, by what looks the same."""
     from ..batch import collected, conditions
     from ..batch.store import known_store
+    from ..opening import is_folder
 
     context, scene = request.context, request.scene
     if request.like is None and not request.alike:
@@ -57,13 +59,12 @@ def search(request: SearchRequest) -> None:
     if request.like is not None:
         refuse(context, "alike", because="--like orders by one surface, --alike groups them all")
     asked = conditions.conditions(request.query or "")
-    path = request.where
-    if path.is_dir():
-        store = known_store(path)
-        path = store.folder / collected.INDEX
-        with working(f"collecting {path.name}", request.quiet):
-            collected.collect_into(store, path)
-    with collected.opened(path) as base:
+    with ExitStack() as stack:
+        if is_folder(request.where):
+            with working(f"collecting {request.where.name}", request.quiet):
+                base, *_ = stack.enter_context(collected.collected(known_store(request.where)))
+        else:
+            base = stack.enter_context(collected.opened(request.where))
         more = [*(["doubt"] if request.alike else []), *(["surface"] if request.sheet else [])]
         rows = conditions.matching(base, asked, *more)
         total = base.execute("SELECT count(*) FROM name JOIN fit USING (key)").fetchone()[0]

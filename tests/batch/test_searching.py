@@ -2,6 +2,8 @@
 
 import json
 import sqlite3
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,8 @@ from brdfguide.models.surface import Surface
 from brdfguide.physics import gloss, seen
 from brdfguide.scene import scene as scenes
 
+from .. import patience
+from ..conftest import ROOT
 from .test_run import some
 from .test_store import WORK, Task
 
@@ -152,14 +156,80 @@ def test_looks_order_pairs_as_the_whole_sphere_does():
         ("gloss60=35..", lambda row: row["gloss60"] >= 35),
         ("file=1?.csv", lambda row: len(row["file"]) == 6 and row["file"].startswith("1")),
         ("kind=metal", lambda row: False),
+        ("kind=DIELECTRIC", lambda row: row["kind"] == "dielectric"),
         ("", lambda row: True),
+        ("no_answer=x", lambda row: False),
+        ("samples<SAMPLES", lambda row: False),  # those that have just so many are not meant
+        ("file=[0-9].csv", lambda row: False),  # a name that has the bracket, such as `a.csv [paint=2]`
     ],
 )
 def test_words_and_numbers_find_the_rows_of_which_they_hold(query, holds, many):
     with collected.opened(many[0]) as base:
-        every = conditions.matching(base, [])
-        found = conditions.matching(base, conditions.conditions(query))
+        every = conditions.matching(base, [], "samples")
+        query = query.replace("SAMPLES", str(every[0]["samples"]))
+        found = conditions.matching(base, conditions.conditions(query), "samples")
     assert [row["file"] for row in found] == [row["file"] for row in every if holds(row)] and len(every) == 60
+
+
+def test_a_flag_is_one_among_several_and_brackets_are_letters(tmp_path):
+    path = database(tmp_path / "all.sqlite", [plastic(np.random.default_rng(1))])
+    with collected.opened(path, make=True) as base, base:
+        base.execute("UPDATE fit SET flags = 'at-bound,discrepancy'")
+        base.execute("UPDATE name SET file = 'd/a.csv [paint=2]'")
+        for query, count in (
+            ("flags=discrepancy", 1),
+            ("flags=at-*", 1),
+            ("flags=discrep", 0),
+            ("flags=", 0),
+            ("file=d/a.csv [paint=2]", 1),
+            ("file=*[paint=?]", 1),
+            ("file=D/*", 0),
+        ):
+            assert len(conditions.matching(base, conditions.conditions(query))) == count, query
+
+
+COLLECTS = """
+import sys
+from pathlib import Path
+from brdfguide.batch import collected, store
+sys.stdin.readline()
+collected.collect_into(store.known_store(Path(sys.argv[1])), Path(sys.argv[2]))
+"""
+
+
+def test_several_may_collect_into_one_file_at_once(tmp_path):
+    answers = store.store_at(tmp_path / "d")
+    files = [some(tmp_path, f"{part}.csv", part) for part in range(3)]
+    list(run_tasks([Task(str(file), file, WORK, answers) for file in files], answers))
+    command = [sys.executable, "-c", COLLECTS, str(tmp_path / "d"), str(tmp_path / "all.sqlite")]
+    runs = [subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE) for _ in range(3)]
+    for each in runs:
+        each.stdin.close()
+    assert [each.wait(patience.AN_AGE_S) for each in runs] == [0, 0, 0]
+    with collected.opened(tmp_path / "all.sqlite") as base:
+        for table in ("fit", "name", "ranking"):  # one model each
+            assert base.execute(f"SELECT count(*) FROM {table}").fetchone() == (3,), table
+
+
+def test_what_is_kept_in_a_folder_is_made_anew_where_it_is_damaged_and_elsewhere_where_it_may_not(
+    tmp_path, monkeypatch
+):
+    answers, file = store.store_at(tmp_path / "d"), some(tmp_path, "a.csv", 0)
+    list(run_tasks([Task(str(file), file, WORK, answers)], answers))
+    index = tmp_path / "d" / collected.INDEX
+    with monkeypatch.context() as patch:
+        patch.setattr(collected.os, "access", lambda *_: False)
+        with collected.collected(answers) as (_, *counts):
+            assert counts == [1, 1] and not index.exists()
+    index.write_bytes(b"no database at all, and longer than the header that one has" * 9)
+    with collected.collected(answers) as (_, *counts):
+        assert counts == [1, 1]
+    with sqlite3.connect(index) as base:
+        base.execute("UPDATE brdfguide SET schema = 'of another version'")
+    with pytest.raises(InputError, match="another version"), collected.collected(answers, index):
+        pass  # one that was named is left alone
+    with collected.collected(answers) as (base, *_):
+        assert len(collected.flat_rows(base)) == 1
 
 
 @pytest.mark.parametrize(
@@ -169,6 +239,7 @@ def test_words_and_numbers_find_the_rows_of_which_they_hold(query, holds, many):
         ("glos60=3", "did you mean gloss60"),
         ("albedo=x", "wanted a number, or LOW..HIGH"),
         ("albedo", "there are: matt"),
+        ("gloss60=30..10", "found 30 before 10"),
     ],
 )
 def test_what_cannot_be_searched_by_is_a_sentence(query, sentence):

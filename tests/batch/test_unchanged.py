@@ -42,7 +42,7 @@ def test_a_failure_under_another_name_keeps_its_words(tmp_path, monkeypatch):
     Path("n").write_text("theta_i,theta_r,brdf\n10,n,0.1\n")
     shutil.copy("n", "m")
     (first,), (second,) = rows(Path("d"), "n"), rows(Path("d"), "m")
-    assert second.from_before and first.error.startswith("n: ") and "'n'" in first.error
+    assert second.from_before and first.error.startswith("n, line 2") and "'n'" in first.error
     assert second.error == "m" + first.error[1:]
 
 
