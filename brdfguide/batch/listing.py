@@ -40,26 +40,30 @@ def shard_of(words: str, environment: Mapping[str, str] = os.environ) -> Shard:
     Raises InputError for anything else.
     """
     wanted = "wanted I/N with I from 0 to N-1, such as 0/8, or auto inside an array job"
-    number, slash, of = words.partition("/")
-    if number == "auto":
-        return _of_array(words, int(of) if of.isdigit() else None, environment)
-    if not (slash and number.isdigit() and of.isdigit() and int(of)):
+    part, slash, whole = words.partition("/")
+    number, of = _whole_number(part), _whole_number(whole)
+    if part == "auto" and (of or not slash):
+        return _of_array(words, of, environment)
+    if number is None or not of:
         raise InputError(f"--shard {words}: {wanted}")
-    if int(number) >= int(of):
-        raise InputError(f"--shard {words}: shards count from 0, the last of {of} is {int(of) - 1}/{of}")
-    return Shard(int(number), int(of))
+    if number >= of:
+        raise InputError(f"--shard {words}: shards count from 0, the last of {of} is {of - 1}/{of}")
+    return Shard(number, of)
 
 
 def _of_array(words: str, of: int | None, environment: Mapping[str, str]) -> Shard:
     for index, first, count, last in ARRAYS:
-        if not environment.get(index, "").isdigit():
+        told = _whole_number(environment.get(index))
+        if told is None:
             continue
-        begin = int(environment.get(first, first if first.isdigit() else "1"))
-        number = int(environment[index]) - begin
-        if of is None and environment.get(count, "").isdigit():
-            of = int(environment[count])
-        if of is None and environment.get(last, "").isdigit():
-            of = int(environment[last]) - begin + 1
+        begin = _whole_number(environment.get(first, first if first.isdecimal() else "1"))
+        if begin is None:
+            raise InputError(f"--shard {words}: {first} is {environment[first]!r}; wanted a number")
+        number = told - begin
+        if of is None:
+            of = _whole_number(environment.get(count))
+        if of is None and (end := _whole_number(environment.get(last))) is not None:
+            of = end - begin + 1
         if of is None:
             raise InputError(f"--shard {words}: {index} does not say how many tasks there are; say auto/N")
         if not 0 <= number < of:
@@ -67,6 +71,10 @@ def _of_array(words: str, of: int | None, environment: Mapping[str, str]) -> Sha
         return Shard(number, of)
     known = ", ".join(each[0] for each in ARRAYS)
     raise InputError(f"--shard {words}: this is no task of an array job: none of {known} is set")
+
+
+def _whole_number(word: str | None) -> int | None:
+    return int(word) if word is not None and word.isdecimal() and len(word) < 20 else None
 
 
 class Listing(NamedTuple):

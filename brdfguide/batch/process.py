@@ -18,7 +18,8 @@ def check_limits() -> None:
 
 def limit_data(mb: float) -> None:
     """From now on this process gets no more data than that, the program's own included; what asks for more fails."""
-    most = int(mb * 2**20)
+    hard = LIMITS.getrlimit(LIMITS.RLIMIT_DATA)[1]
+    most = int(min(mb * 2**20, 2**62 if hard == LIMITS.RLIM_INFINITY else hard))
     LIMITS.setrlimit(LIMITS.RLIMIT_DATA, (most, most))
 
 

@@ -38,7 +38,7 @@ from .states import (
 from .store import STALE_S, Store
 from .unchanged import Stamp, stamp_of
 from .work import MadeAnswer, Work
-from .workers import UNLIMITED, Done, Ended, Limits, OverTime
+from .workers import UNLIMITED, Done, Ended, Limits, OverMemory, OverTime
 
 MISSING_FILE = "sha256:"  # in place of a name, in an answer that belongs to all files of this content
 
@@ -168,7 +168,7 @@ def _results(tasks, store: Store | None, engine_of: Engine, again: Again) -> Gen
 
 def _ended_row(task: Task, ended: Ended) -> FileRow:
     """The row of a task whose process was ended, and the note for the next run."""
-    state = TIMED_OUT if isinstance(ended, OverTime) else KILLED
+    state = {OverTime: TIMED_OUT, OverMemory: OUT_OF_MEMORY}.get(type(ended), KILLED)
     row = failed_row(task.label, state, f"{task.label}: {ended.words}", key=task.key, tries=ended.tries)
     return _noted(task, row)
 

@@ -115,7 +115,7 @@ class Store:
             return _is_stale(place, stale_s) or _object(place) == _me()
         except OSError:  # whatever it is, the answer's own writing says it
             return True
-        with os.fdopen(handle, "w") as stream:
+        with suppress(OSError), os.fdopen(handle, "w") as stream:
             json.dump(_me(), stream)
         return True
 

@@ -52,6 +52,10 @@ class OverTime(Ended):
     """By us, since it took too long."""
 
 
+class OverMemory(Ended):
+    """By itself: there was not even the memory to say so in its own words."""
+
+
 class _Worker(NamedTuple):
     process: BaseProcess
     line: Connection
@@ -233,17 +237,21 @@ def _ended(workers: list[_Worker]) -> None:
 def _serve(do, line: Connection, memory_mb: float | None) -> None:
     """In the other process: one task after the other, until ours is gone."""
     threading.Thread(target=_watch, daemon=True).start()
+    wanting = OverMemory(f"not done within {memory_mb:g} MB" if memory_mb else "there is not enough memory", 1)
     if memory_mb is not None:
         limit_data(memory_mb)  # last: with less than the program itself takes no thread could begin
     while True:
         try:
             task = line.recv()
-        except EOFError:
+            line.send(_Begun())  # what came before, such as imports, is not the task's time
+            result = do(task)
+        except MemoryError:
+            result = wanting
+        except (EOFError, OSError):  # nobody is there to hear it
             return
         try:
-            line.send(_Begun())  # what came before, such as imports, is not the task's time
-            line.send(do(task))
-        except OSError:  # nobody is there to hear it
+            line.send(result)
+        except OSError:
             return
 
 

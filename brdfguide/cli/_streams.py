@@ -1,6 +1,7 @@
 """Standard output and error, whatever they are: of any encoding, closed, full, or read by somebody who has enough."""
 
 import codecs
+import io
 import os
 import sys
 
@@ -9,6 +10,7 @@ def prepare_streams() -> None:
     """Signs that an encoding lacks are shown in those that it has; a stream that is closed is told from one that is not
     there."""
     codecs.register_error("shown", _shown)
+    sys.stdout = _whole(sys.stdout)
     if sys.stdin is None:
         sys.stdin = open(os.open(os.devnull, os.O_RDONLY), closefd=False)  # noqa: SIM115
     if sys.stdout is None:
@@ -19,6 +21,15 @@ def prepare_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="shown")
+
+
+def _whole(stream):
+    """A stream that writes all or says why not: without a buffer (PYTHONUNBUFFERED) what a full disk left out would be
+    nobody's error."""
+    if not isinstance(getattr(stream, "buffer", None), io.RawIOBase):
+        return stream
+    buffered = io.BufferedWriter(stream.buffer)
+    return io.TextIOWrapper(buffered, stream.encoding, stream.errors, line_buffering=stream.line_buffering)
 
 
 def _shown(error: UnicodeError):

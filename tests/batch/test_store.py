@@ -162,6 +162,14 @@ def test_a_claim_is_respected_while_its_owner_lives(tmp_path):
     assert not (tmp_path / "claims" / "ab").exists()
 
 
+def test_a_claim_for_which_there_is_no_room_is_none(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(store.json, "dump", full)
+    assert store.store_at(tmp_path / "d").claim("ab" * 32)
+
+
 def test_what_another_run_is_at_comes_last_and_is_done_all_the_same(tmp_path):
     answers = store.store_at(tmp_path / "d")
     files = [some(tmp_path, f"{part}.csv", part) for part in range(3)]

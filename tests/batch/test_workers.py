@@ -44,6 +44,10 @@ def greedy(mb):
         return "MemoryError"
 
 
+def greedy_without_words(mb):
+    return str(len(bytearray(mb * 2**20)))
+
+
 def sleep(path):
     open(path, "w").close()
     time.sleep(600)
@@ -87,6 +91,13 @@ def test_a_task_that_wants_more_memory_than_it_may_have_fails_in_its_own_process
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems set no such limit")
 def test_less_memory_than_the_program_itself_takes_is_no_death():
     assert dict(workers.done(greedy, iter([(0, 20)]), 1, Limits(memory_mb=5))) == {0: "MemoryError"}
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems set no such limit")
+def test_too_little_memory_for_any_words_is_told_too():
+    ((number, ended),) = workers.done(greedy_without_words, iter([(0, 20)]), 1, Limits(memory_mb=5))
+    assert number == 0 and isinstance(ended, workers.OverMemory) and ended.words == "not done within 5 MB"
+    assert dict(workers.done(double, iter([(0, 20)]), 1, Limits(memory_mb=1e300))) == {0: 40}
 
 
 def test_leaving_early_ends_the_processes(tmp_path):

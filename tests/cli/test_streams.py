@@ -115,6 +115,21 @@ def test_a_full_standard_output_is_one_sentence_and_status_2(command):
     assert command == "wrong" or b"No space left on device" in err
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("command", ["fit json", "export", "schema"])
+def test_a_disk_that_is_full_in_the_middle_is_one_too(command, unbuffered, tmp_path):
+    """With PYTHONUNBUFFERED Python itself drops what does not fit, and says nothing."""
+    import resource
+
+    def small_files() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
+
+    with (tmp_path / "out").open("wb") as out:
+        run = start(COMMANDS[command], out, {"PYTHONUNBUFFERED": unbuffered}, preexec_fn=small_files)
+        _, err = run.communicate(timeout=patience.AN_AGE_S)
+    assert run.returncode == 2 and err == b"brdfguide: cannot write standard output: File too large\n"
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_reader_who_has_enough_is_no_error(command):
     reading, writing = os.pipe()
