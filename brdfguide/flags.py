@@ -94,6 +94,7 @@ READING = {
     "logarithms": Flag("Logarithms were taken as powers of ten, or of e."),
     "mirror-azimuth": Flag("From where azimuths about the mirror direction count, and why this was taken."),
     "kind-contradicted": Flag("--kind says one kind and the data another.", WARNING, "--kind"),
+    "marks-missing": Flag("Values that no BRDF can have, such as -999, were taken as marks for missing ones."),
     "mirror-side": Flag("On which side the mirror direction lies, and from what.", EITHER, "--mirror-side"),
     "mirror-side-by-option": Flag("The mirror side is the one that was asked for."),
     "mirror-side-turned": Flag("The directions were turned by 180°: the values say so.", EITHER, "--mirror-side"),

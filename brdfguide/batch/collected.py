@@ -92,7 +92,7 @@ def _stamps(folder: Path) -> dict[str, int | None]:
     A clock has steps, and more may be written within one.
     """
     with suppress(OSError), os.scandir(folder) as inside:
-        each = {as_text(os.path.abspath(entry.path)): entry.stat().st_mtime_ns for entry in inside}
+        each = {stored_name(os.path.abspath(entry.path)): entry.stat().st_mtime_ns for entry in inside}
         return {path: ns if time.time_ns() - ns > JUST_NOW_NS else None for path, ns in each.items()}
     return {}
 
@@ -112,7 +112,7 @@ def _bring_answers(base: sqlite3.Connection, store: Store) -> int:
     for path in store.folder.glob("answers/*/*"):
         key, _, kind = path.name.partition(".")
         if kind != "json" and not key.startswith("."):
-            base.execute("INSERT INTO product VALUES (?, ?, ?)", (key, kind, as_text(str(path))))
+            base.execute("INSERT INTO product VALUES (?, ?, ?)", (key, kind, stored_name(str(path))))
     return new
 
 
@@ -182,7 +182,7 @@ def _forget(base: sqlite3.Connection, key: str) -> None:
 
 def _bring_names(base: sqlite3.Connection, store: Store) -> int:
     base.execute("DELETE FROM name")
-    base.executemany("INSERT INTO name VALUES (?, ?)", ((as_text(file), key) for file, key in store.names()))
+    base.executemany("INSERT INTO name VALUES (?, ?)", ((stored_name(file), key) for file, key in store.names()))
     return 0
 
 
@@ -193,16 +193,16 @@ def _bring_failures(base: sqlite3.Connection, store: Store) -> int:
         if found is not None:
             row = (
                 path.stem,
-                as_text(str(found.get("file"))),
+                stored_name(str(found.get("file"))),
                 found["state"],
-                as_text(found["error"]),
+                stored_name(found["error"]),
                 found.get("tries"),
             )
             base.execute("INSERT OR REPLACE INTO failure VALUES (?, ?, ?, ?, ?)", row)
     return 0
 
 
-def as_text(text: str) -> str:
+def stored_name(text: str) -> str:
     """A name as a database holds it: bytes that are no UTF-8 are shown as such."""
     return text.encode(errors="backslashreplace").decode()
 

@@ -157,8 +157,8 @@ def _is_readable(path: Path) -> bool:
 
 def from_missing(source: str, base) -> list[str]:
     """The names in a list that have no answer in a database of them. Raises InputError where it cannot be read."""
-    from ..batch.collected import answered_names, as_text
+    from ..batch.collected import answered_names, stored_name
     from ..batch.listing import from_list
 
     answered = answered_names(base)
-    return [name for name in from_list(source, null=False) if as_text(name) not in answered]
+    return [name for name in from_list(source, null=False) if stored_name(name) not in answered]

@@ -19,6 +19,8 @@ UNDONE = {
     "reflectance-factor": "divided by pi",
     "dark-level": "taken out",
 }
+BELOW_NOISE = 10.0  # times the largest value: what lies so far below zero is no noise about it
+NO_BRDF = 1e20  # 1/sr; what files have in place of a value reaches from 1e20 to 1e37
 STEEP_DEG = 8.0  # below this incidence the two sides are not told apart
 
 
@@ -67,17 +69,33 @@ def scaled(measurement: Measurement, factor: float) -> Measurement:
 
 
 def without_marks(measurement: Measurement) -> Measurement:
-    """Exact zeros, and one tiny value repeated, become NaN: they are marks, not black. Each kind is noted."""
+    """Exact zeros, one tiny value repeated, and what no BRDF can be, such as -999, become NaN: they are marks, not
+    values. Each kind is noted."""
     brdf, notes = measurement.brdf, []
-    zero = brdf == 0
+    zero, odd = brdf == 0, _impossible(brdf)
     floor = _floor(brdf)
-    for mask, note in ((zero, _zeros_note), (np.zeros_like(zero) if floor is None else brdf == floor, _floor_note)):
+    at_floor = np.zeros_like(zero) if floor is None else brdf == floor
+    for mask, note in ((zero, _zeros_note), (at_floor, _floor_note), (odd, _marks_note)):
         if np.any(mask):
             notes.append(note(measurement, mask))
     if not notes:
         return measurement
-    brdf = np.where(zero if floor is None else zero | (brdf == floor), np.nan, brdf)
-    return replace(measurement, brdf=brdf).noting(*notes)
+    return replace(measurement, brdf=np.where(zero | at_floor | odd, np.nan, brdf)).noting(*notes)
+
+
+def _impossible(brdf) -> np.ndarray:
+    """Values that can neither be measured nor noise: far further below zero than any lies above it, or immense."""
+    with np.errstate(invalid="ignore"):
+        immense = brdf >= NO_BRDF
+        largest = np.nanmax(np.where(immense, np.nan, brdf), initial=0.0)
+        return immense | (brdf < -BELOW_NOISE * largest) if largest > 0 else immense
+
+
+def _marks_note(measurement: Measurement, mask) -> Finding:
+    count, value = int(np.count_nonzero(mask)), float(measurement.brdf[mask][0])
+    text = f"{count} of {mask.size} values are {value:g}/sr or like it, which no BRDF is: taken as marks for missing"
+    numbers = (("values", count), ("of", mask.size), ("first_per_sr", value))
+    return Finding("marks-missing", text, consequence="they take no part in a fit", numbers=numbers)
 
 
 def _zeros_note(measurement: Measurement, zero) -> Finding:

@@ -290,3 +290,16 @@ def test_the_users_word_on_the_mirror_side_wins_over_the_values_in_every_format(
     for word in ("positive", "phi=180"):
         measurement = believed(tmp_path, text, mirror_side=word)
         assert "mirror-side-by-option" in codes(measurement) and "mirror-side-turned" not in codes(measurement)
+
+
+@pytest.mark.parametrize("mark", [-999.0, -99999.0, 1e30, 9.96921e36])
+def test_marks_for_missing_are_neither_noise_nor_values(tmp_path, mark):
+    theta_i, theta_r, f = in_plane_run(next(iter(SURFACES)), seed=12)
+    lost = np.arange(len(f)) % 7 == 0
+    measurement = believed(tmp_path, table(("theta_i", "theta_r", "brdf"), theta_i, theta_r, np.where(lost, mark, f)))
+    assert "marks-missing" in codes(measurement)
+    np.testing.assert_array_equal(np.isnan(measurement.brdf[:, 0]), lost)
+    few = np.where(lost, -0.1 * f.max(), f)  # noise may be so large where hardly any light comes back
+    assert "marks-missing" not in codes(
+        believed(tmp_path, table(("theta_i", "theta_r", "brdf"), theta_i, theta_r, few))
+    )

@@ -311,11 +311,11 @@ ANGLE_UNITS = {
 LENGTH_UNITS = {
     "nm": (1e-3, "nm nanometer nanometers nanometre nanometres"),
     "um": (1.0, "um μm micron microns micrometer micrometers micrometre micrometres"),
-    "angstrom": (1e-4, "angstrom angstroms"),
+    "angstrom": (1e-4, "angstrom angstroms a"),
     "mm": (1e3, "mm millimeter millimeters millimetre millimetres"),
     "m": (1e6, "m meter meters metre metres"),
 }
-ONLY_AS_UNIT = word_set("m mm")  # read as units behind a number, in brackets or at the end alone
+ONLY_AS_UNIT = word_set("m mm a")  # read as units behind a number, in brackets or at the end alone
 WAVENUMBER_UNITS = ("cm",)  # as an inverse: 1e4 divided by it is in micrometres
 # form of values -> how it is written
 SCALES = {

@@ -11,6 +11,8 @@ from .format import Options, degrees
 OF_DIRECTIONS = (
     "theta_i", "phi_i", "theta_r", "phi_r", "dphi", "theta_h", "phi_h", "theta_d", "phase", "from_mirror", "rotation",
 )  # fmt: skip
+NAME_IT = "write the unit into its name, such as (deg) or (rad)"
+SMALL = {"mrad", "arcmin", "arcsec"}  # units of small angles: who names one of a column means that one
 UNNAMED = ("theta_i", "theta_r", "theta_h", "theta_d")  # zeniths whose values tell degrees from radians
 
 
@@ -63,20 +65,42 @@ def _units(source, columns, raw, table, options: Options, unit: str | None, note
     named = {role: column.unit for role, column in columns.items() if column.unit in ANGLE_UNITS}
     if len(named) == len(columns):
         return named, "as the names say"
-    if len(set(named.values())) > 1:
-        raise source.error(
-            "some angle columns are named in degrees and some in radians; say which with --unit deg or --unit rad"
-            if set(named.values()) == {"deg", "rad"}
-            else f"some angle columns are named in {' and '.join(sorted(set(named.values())))}, some in none; say "
-            f"which with --unit"
-        )
     if named:
-        return dict.fromkeys(columns, next(iter(named.values()))), "as the names say"
-    if unit:
-        return dict.fromkeys(columns, unit), "as the header says"
-    if commented := prose.angle_unit_in(table.comments):
-        return dict.fromkeys(columns, commented), "as a comment says"
-    return dict.fromkeys(columns, _inferred(source, raw, notes)), "from their values"
+        chosen, said = _as_its_like(source, columns, named), "as the names say"
+    elif unit:
+        chosen, said = dict.fromkeys(columns, unit), "as the header says"
+    elif commented := prose.angle_unit_in(table.comments):
+        chosen, said = dict.fromkeys(columns, commented), "as a comment says"
+    else:
+        chosen, said = dict.fromkeys(columns, _inferred(source, raw, notes)), "from their values"
+    for role in columns.keys() - named.keys():
+        if chosen[role] == "deg" and _are_radians(raw[role], role in UNNAMED):
+            text = f"column '{columns[role].name}' names no unit, and its values look like radians beside degrees"
+            raise source.error(f"{text}; {NAME_IT}, or say --unit deg if all are")
+    return chosen, said
+
+
+def _as_its_like(source, columns: dict[str, Column], named: dict[str, str]) -> dict[str, str]:
+    """The unit of each column: its own, or that of others, first of zeniths among zeniths and azimuths among azimuths.
+    Raises InputError where these differ, and where the others' is one for small angles alone."""
+    chosen = dict(named)
+    for role in columns.keys() - named.keys():
+        like = {unit for other, unit in named.items() if (other in UNNAMED) == (role in UNNAMED)} or set(named.values())
+        if len(like) > 1 or like <= SMALL:
+            text = f"column '{columns[role].name}' names no unit, and others are in {' and '.join(sorted(like))}"
+            raise source.error(f"{text}; {NAME_IT}, or say --unit for all")
+        chosen[role] = next(iter(like))
+    return chosen
+
+
+def _are_radians(values, is_zenith: bool) -> bool:
+    """Whether these are steps of quarter degrees in radians and not in degrees, or end at a half or a whole turn."""
+    told = np.abs(values[np.isfinite(values) & (values != 0)])
+    largest = float(told.max(initial=0.0))
+    if not 0.1 < largest < (1.58 if is_zenith else 6.3) or _share_of_quarters(told) > 0.5:
+        return False
+    at_a_turn = not is_zenith and any(0.98 * end < largest < 1.001 * end for end in (np.pi, 2 * np.pi))
+    return at_a_turn or _share_of_quarters(np.degrees(told)) > 0.9
 
 
 def _inferred(source, raw, notes) -> str:

@@ -56,7 +56,27 @@ BAD = {
     "units that differ": (
         "theta_i_deg,theta_r_rad,dphi,brdf\n30,1,1,1\n",
         {},
-        r"some angle columns are named in degrees and some in radians",
+        r"column 'dphi' names no unit, and others are in deg and rad; write the unit into its name",
+    ),
+    "a small unit beside none": (
+        "theta_i (arcmin),theta_r,brdf\n3000,50,1\n1800,30,1\n",
+        {},
+        r"column 'theta_r' names no unit, and others are in arcmin",
+    ),
+    "radians beside named degrees": (
+        "theta_i_deg,theta_r,brdf\n30,0.523599,1\n30,0.785398,1\n30,1.308997,1\n",
+        {},
+        r"column 'theta_r' names no unit, and its values look like radians beside degrees",
+    ),
+    "an azimuth of half a turn beside degrees": (
+        "theta_i,theta_r,phi,brdf\n30,30,3.1415927,1\n30,45,0,1\n30,60,3.1415927,1\n",
+        {},
+        r"column 'phi' names no unit, and its values look like radians .* --unit deg if all are",
+    ),
+    "azimuths all around beside degrees": (
+        "theta_i_deg,theta_r_deg,phi,brdf\n" + "".join(f"30,30,{0.0721 * n:.4f},1\n" for n in range(88)),
+        {},
+        r"names no unit, and its values look like radians",
     ),
     "an option that names no column": (
         plain(),

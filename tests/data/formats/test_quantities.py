@@ -323,3 +323,22 @@ def test_inspect_names_channels_with_their_wavelengths_units_and_what_was_left_o
     assert "\nchannels: 405, 633 nm\n" in out
     assert "'AOI (deg)' as theta_i" in out and "angles in deg, as the names say" in out
     assert "columns ignored: 'lamp current (A)' ('current' is not understood)" in out
+
+
+def test_a_zenith_without_a_unit_has_that_of_the_other_zenith(tmp_path):
+    """Whatever the azimuth is in; one unit for all would misread what is named."""
+    path = tmp_path / "run.csv"
+    path.write_text("theta_i,theta_r_deg,phi_r_rad,brdf\n30,45,3.1415927,1\n30,60,0.5235988,1\n")
+    geom = formats.read(path).geom
+    assert geom.theta_i_deg.ravel().tolist() == [30, 30]
+    assert geom.phi_deg.ravel() == pytest.approx([180, 30], abs=1e-5)
+
+
+def test_an_angstrom_may_be_written_as_a_letter(tmp_path):
+    for text in (
+        sheet("brdf", IN_PLANE, ("wavelength (A)", 0 * IN_PLANE + 6328)),
+        sheet("brdf", IN_PLANE, title="# wavelength: 6328 A\n"),
+    ):
+        measurement = read(tmp_path, text)
+        assert float(np.ravel(measurement.geom.wavelength)[0]) == pytest.approx(0.6328)
+        check(measurement)
