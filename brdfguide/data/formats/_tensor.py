@@ -17,7 +17,7 @@ MOST_DIMENSIONS = 16  # of one field; the database's have up to five
 
 
 def tensor_fields(source: Source) -> dict[str, np.ndarray]:
-    """Views of the arrays in the file. Raises InputError for anything that reaches beyond its end."""
+    """Views of the arrays in the file. Raises InputError for anything that reaches beyond its end, or into another."""
     data, size = source.data, len(source.data)
 
     def take(form: str, at: int):
@@ -30,7 +30,8 @@ def tensor_fields(source: Source) -> dict[str, np.ndarray]:
         raise source.error(f"tensor_file version {major}.{minor}; this reader knows 1.x")
     if count > MOST_FIELDS:
         raise source.error(f"it promises {count} fields; a reflectance table has about a dozen")
-    found = {}
+    found: dict[str, np.ndarray] = {}
+    places = []
     for _ in range(count):
         (length,), at = take("<H", at)
         (raw,), at = take(f"{length}s", at)
@@ -48,5 +49,16 @@ def tensor_fields(source: Source) -> dict[str, np.ndarray]:
                 f"field '{name[:40]}' of shape {shape} would end at byte {end}; the file has {size}: truncated "
                 f"or damaged"
             )
+        if name in found:
+            raise source.error(f"field '{name[:40]}' stands there twice: damaged")
         found[name] = np.frombuffer(data, TYPES[kind], count=values, offset=offset).reshape(shape)
+        places += [(offset, end, name)] if values else []
+    _check_apart(source, [(0, at, "the list of fields"), *sorted(places)])
     return found
+
+
+def _check_apart(source: Source, places: list[tuple[int, int, str]]) -> None:
+    """Raises InputError where two of (begin, end, name) share a byte: a damaged offset, type or length."""
+    for (_, end, name), (begin, _, other) in zip(places, places[1:], strict=False):
+        if begin < end:
+            raise source.error(f"field '{other[:40]}' begins at byte {begin}, where '{name[:40]}' is: damaged")

@@ -259,6 +259,9 @@ def _checked(source: Source, fields):
             raise source.error(f"field '{name}' holds values that are not finite")
     if thetas > 1 and np.any(np.diff(fields["theta_i"]) <= 0) or phis > 1 and np.any(np.diff(fields["phi_i"]) <= 0):
         raise source.error("the stored incidences do not rise")
+    least, most = float(fields["theta_i"].min()), float(fields["theta_i"].max())
+    if least < -1e-6 or most > 1.5709:
+        raise source.error(f"field 'theta_i' reaches from {least:g} to {most:g}; wanted radians, within 0..pi/2")
     for name in ("vndf", "ndf", "sigma"):
         slices = fields[name].reshape(-1, fields[name].shape[-2] * fields[name].shape[-1])
         if np.any(fields[name] < 0) or not np.all(np.any(slices > 0, axis=1)):

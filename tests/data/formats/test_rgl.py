@@ -259,6 +259,22 @@ DAMAGE = {
         ),
         "would end at byte",
     ),
+    "angles in degrees": (
+        lambda f: tensor_file(**{**f, "theta_i": np.degrees(f["theta_i"])}),
+        "'theta_i' reaches from .* wanted radians",
+    ),
+    "angles below zero": (
+        lambda f: tensor_file(**{**f, "theta_i": f["theta_i"] - f["theta_i"][1]}),
+        "'theta_i' reaches from -.* wanted radians",
+    ),
+    "a type that reaches into the next field": (
+        lambda f: tensor_file(**f).replace(b"sigma" + (2).to_bytes(2, "little") + b"\x0a", b"sigma\x02\0\x0b"),
+        "where 'sigma' is: damaged",
+    ),
+    "a field that stands there twice": (
+        lambda f: tensor_file(**f).replace(b"\x03\0ndf", b"\x03\0rgb"),
+        "'rgb' stands there twice",
+    ),
     "an absurd shape": (
         lambda f: tensor_file(**f).replace((8).to_bytes(8, "little"), (10**12).to_bytes(8, "little")),
         "would end at byte",
