@@ -15,7 +15,7 @@ from .fit_options import FitOptions
 from .followed import End, Following, follow
 from .layout import Layout, layout_of
 from .objective import Misfit, metric
-from .prepared import Prepared
+from .prepared import Prepared, Subset
 
 WARM_UP_BUDGET = 8  # evaluations after which a start that lies far behind is followed no further
 MOST_EVALUATIONS = 100
@@ -32,6 +32,14 @@ class Search:
     ends: list  # (shared, per_channel, rms), best first
     evaluations: int
     seconds: float
+    last: tuple[Misfit, End] | None = None  # the best of them where descents may go on, and what it looked at
+
+    def known_on(self, on: Subset) -> list[End] | None:
+        """Where the best ended, if it looked at this part of the data."""
+        if self.last is None:
+            return None
+        misfit, end = self.last
+        return [end] if misfit.measurement is on.measurement and misfit.weights is on.weights else None
 
     @property
     def rms(self) -> float:
@@ -132,7 +140,7 @@ class _Begun:
         return Following(self.misfit, [self.narrow.encode(start) for start in self.starts])
 
     def from_ends(self, ends: Sequence[End]) -> Following:
-        return Following(self.misfit, [(end.shared, end.per_channel) for end in ends])
+        return Following.on(self.misfit, ends)
 
     def further(self, ahead: list[End]) -> list[int]:
         """Which ends of the warm-up are worth following."""
@@ -140,7 +148,10 @@ class _Begun:
         return [place for place, end in enumerate(ahead) if not end.converged and end.cost <= most]
 
     def ended(self, found: Mapping[int, End], evaluations: int, seconds: float) -> Search:
-        return Search(self.layout, _best_first(self.misfit, found.values()), evaluations, self.seconds + seconds)
+        ends = list(found.values())
+        return Search(
+            self.layout, _best_first(self.misfit, ends), evaluations, self.seconds + seconds, _last(self.misfit, ends)
+        )
 
 
 def _looked_at(misfit: Misfit) -> int:
@@ -157,6 +168,14 @@ def _best_first(misfit: Misfit, ends: Iterable[End]) -> list:
             at = layout.standing().encode(layout.decode(*at))
         found.append((*layout.in_order(*at), float(np.sqrt(end.cost / count))))
     return sorted(found, key=lambda each: each[2])
+
+
+def _last(misfit: Misfit, ends: Iterable[End]) -> tuple[Misfit, End] | None:
+    """The best end, with what it looked at; None where it is told in other coordinates."""
+    best = min(ends, key=lambda end: end.cost)
+    layout, at = misfit.layout, (best.shared, best.per_channel)
+    stays = not layout.walks and all(map(np.array_equal, at, layout.in_order(*at)))
+    return (misfit, best) if stays else None
 
 
 def _begin(model: Composite, data: Prepared, options: FitOptions, given: Given) -> _Begun:
@@ -201,6 +220,7 @@ def followed_on(searches: Sequence[Search], data: Prepared, options: FitOptions)
             _best_first(misfit, ends),
             each.evaluations + sum(end.evaluations for end in ends),
             each.seconds + seconds,
+            _last(misfit, ends),
         )
         for misfit, each, ends in zip(misfits, searches, found, strict=True)
     ]

@@ -58,7 +58,7 @@ def held_out_from(
         layout = layout_of(model, used.brdf.shape[1], options.shape_per_channel)
         misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
         followings.append(Following(misfit, [layout.encode(values)] * len(folds), kept))
-    found = follow(followings, 1e-4, 20)
+    found = follow(followings, 1e-4, 20, foreseen=True)
     return [_held_out(each, ends, folds) for each, ends in zip(followings, found, strict=True)]
 
 
@@ -175,7 +175,9 @@ def thinned(measurement: Measurement) -> Measurement:
     """Few enough directions and channels for repeated fits."""
     kept = measurement if measurement.has_value.all() else measurement[measurement.has_value]
     rows = starting_grid.spread_rows(kept, SAMPLES)
-    return kept[rows].of_channels(few_channels(measurement.brdf.shape[1]))
+    few = kept if len(rows) == len(kept.brdf) else kept[rows]
+    channels = few_channels(measurement.brdf.shape[1])
+    return few if len(channels) == measurement.brdf.shape[1] else few.of_channels(channels)
 
 
 def looks_at_all(measurement: Measurement) -> bool:

@@ -30,6 +30,7 @@ ASKED_OF_DRIFT = 3  # of the best models, whose misfit may be the instrument's
 MAY_BE_BEST = 1.5  # times the least squares that one step beside the instrument promises, up to which one may be (ours)
 TWINS = 1.15  # times the least error where models are compared, up to which one is told over a whole table (ours)
 ROBUST_ROUNDS = 4
+ROUNDING = 1e-12  # of a sum of squares
 MOST_TO_SETTLE = 400  # evaluations
 
 
@@ -98,7 +99,7 @@ def settle(searched: Search, data: Prepared, on: Subset | None, options: FitOpti
     if on is None or ended is None:
         best, on, evaluations = _settled(searched, data, on, options)
     else:
-        best, on, evaluations = _told(searched, on, options, ended)
+        best, on, evaluations = _told(searched, data, on, options, ended)
     surface = layout.surface(best.shared, best.per_channel, data.whole)
     values, residuals = surface.values, ln_residuals(surface, data.compared)
     part = _where_settled(data, residuals, surface)
@@ -171,18 +172,21 @@ def _ended_together(
     goes = {}
     for place, (each, on) in enumerate(zip(searches, parts, strict=True)):
         if on is not None:
-            following = Following(on.misfit(each.layout, metric(options.metric)), [_start(each)])
+            misfit = on.misfit(each.layout, metric(options.metric))
+            following = Following(misfit, [_start(each)], known=each.known_on(on))
             if following.goes_together:
                 goes[place] = following
-    found = follow(list(goes.values()), 1e-6, MOST_TO_SETTLE)
+    found = follow(list(goes.values()), 1e-6, MOST_TO_SETTLE, foreseen=True)
     ends = dict(zip(goes, (ends[0] for ends in found), strict=True))
     return [ends.get(place) for place in range(len(searches))]
 
 
-def _told(searched: Search, on: Subset, options: FitOptions, ended: End) -> tuple[Minimum, Subset, int]:
-    """The same as `_settled`, of a descent that has ended."""
+def _told(searched: Search, data: Prepared, on: Subset, options: FitOptions, ended: End) -> tuple[Minimum, Subset, int]:
+    """The same as `_settled`, of a descent that has ended; by itself where its last step went astray."""
     misfit = on.misfit(searched.layout, metric(options.metric))
     best = standing(misfit, ended.shared, ended.per_channel, ended.evaluations, ended.converged)
+    if best.cost > ended.cost * (1 + ROUNDING):
+        return _settled(searched, data, on, options)
     return best, on, searched.evaluations + ended.evaluations
 
 

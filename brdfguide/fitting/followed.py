@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..numerics.descents import Descents, Ends, minimise_all
+from ..numerics.descents import Descents, Ends, Equations, minimise_all
 from ..records import dataclass
 from . import reading
 from .layout import Layout
@@ -25,6 +25,7 @@ class End:
     cost: float
     evaluations: int
     converged: bool
+    equations: tuple[np.ndarray, np.ndarray] | None = None  # slope and normal equations there, if others may go on
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +68,12 @@ class Following:
     misfit: Misfit
     starts: Sequence[tuple[np.ndarray, np.ndarray]]  # (shared, per_channel)
     kept: np.ndarray | None = None  # (starts, samples): which values each of them looks at; None: at all
+    known: Sequence[End] | None = None  # where other descents on the same values ended, if these begin there
+
+    @classmethod
+    def on(cls, misfit: Misfit, ends: Sequence[End]) -> "Following":
+        """Descents that go on, on the same values, from where others ended."""
+        return cls(misfit, [(end.shared, end.per_channel) for end in ends], known=ends)
 
     @property
     def goes_together(self) -> bool:
@@ -85,7 +92,8 @@ class Following:
             for shared, own in zip(layout.bounds(layout.shared), layout.bounds(layout.per_channel), strict=True)
         )
         at = np.array([np.concatenate((shared, per_channel.ravel())) for shared, per_channel in self.starts])
-        return Descents(Together(self.misfit, self.kept), at, len(layout.shared), layout.channels, low, high)
+        known = _known(self.known or ())
+        return Descents(Together(self.misfit, self.kept), at, len(layout.shared), layout.channels, low, high, known)
 
     def one_by_one(self, tolerance: float, most: int) -> list[End]:
         """Each of them by itself."""
@@ -95,20 +103,33 @@ class Following:
         ]
 
 
-def follow(followings: Sequence[Following], tolerance: float, most: int) -> list[list[End]]:
-    """Where the descents of each model end, those of all models side by side."""
+def follow(followings: Sequence[Following], tolerance: float, most: int, foreseen: bool = False) -> list[list[End]]:
+    """Where the descents of each model end, those of all models side by side; `foreseen` as in `minimise_all`."""
     together = [each for each in followings if each.goes_together]
-    found = iter(minimise_all([each.family() for each in together], tolerance=tolerance, most=most))
+    families = [each.family() for each in together]
+    found = iter(minimise_all(families, tolerance=tolerance, most=most, foreseen=foreseen))
     return [
-        _ends(each.misfit.layout, next(found)) if each.goes_together else each.one_by_one(tolerance, most)
+        _ends(each.misfit.layout, next(found), foreseen) if each.goes_together else each.one_by_one(tolerance, most)
         for each in followings
     ]
 
 
-def _ends(layout: Layout, ends: Ends) -> list[End]:
+def _ends(layout: Layout, ends: Ends, foreseen: bool) -> list[End]:
     p, shape = len(layout.shared), (layout.channels, len(layout.per_channel))
     found = zip(ends.at, ends.cost.tolist(), ends.evaluations.tolist(), ends.converged.tolist(), strict=True)
-    return [End(row[:p], row[p:].reshape(shape), *rest) for row, *rest in found]
+    equations = [None] * len(ends.at) if foreseen else list(zip(ends.slope, ends.normal, strict=True))
+    return [
+        End(row[:p], row[p:].reshape(shape), *rest, there) for (row, *rest), there in zip(found, equations, strict=True)
+    ]
+
+
+def _known(ends: Sequence[End]) -> Equations | None:
+    """The equations where these ended; None where those of any are not known."""
+    found = [end.equations for end in ends if end.equations is not None]
+    if not found or len(found) < len(ends):
+        return None
+    slope, normal = map(np.array, zip(*found, strict=True))
+    return np.array([end.cost for end in ends]), slope, normal
 
 
 def _part(misfit: Misfit, kept) -> Misfit:

@@ -74,15 +74,15 @@ class Prepared:
         """The same where even the best law misses by this: the darker a value, the sooner it is too dim to tell."""
         if self.missed is None:
             return self
-        whole = expecting(self.whole, error)
+        whole, settle = expecting(self.whole, error), self.settle.expecting(error)
         return replace(
             self,
             whole=whole,
             compared=whole if self.compared is self.whole else expecting(self.compared, error),
-            settle=self.settle.expecting(error),
+            settle=settle,
             fewer=self.fewer.expecting(error),
             near=self.near.expecting(error),
-            search=self.search.expecting(error),
+            search=settle if self.search is self.settle else self.search.expecting(error),
         )
 
 
@@ -108,7 +108,9 @@ def prepare(measurement: Measurement, weighting: str = "auto") -> Prepared:
     )
     thin = starting_grid.spread_rows(settle.measurement, SEARCH_SAMPLES)
     channels = few_channels(measurement.brdf.shape[1])
-    search = Subset(thin, settle.measurement[thin].of_channels(channels), settle.weights[thin][:, channels])
+    search = settle.some(thin)
+    if len(channels) < measurement.brdf.shape[1]:
+        search = Subset(thin, search.measurement.of_channels(channels), search.weights[:, channels])
     orders = standard_errors.orderings(settle.measurement)
     blocks = [standard_errors.blocks_of(settle.measurement, orders[0]), *map(standard_errors.even_blocks, orders[1:])]
     scans = standard_errors.whole_scans(settle.measurement)

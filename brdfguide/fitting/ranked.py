@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import field, replace
+from typing import Protocol
 
 from ..finding import Finding
 from ..records import dataclass
@@ -31,6 +32,15 @@ class HeldOut:
     folds: tuple[LeftOut, ...] = ()  # none where other things than incidences tell what was left out
 
 
+class Cost(Protocol):
+    """What a candidate costs to evaluate, the same in every run."""
+
+    @property
+    def work(self) -> float: ...  # operations in the time of one addition: orders equals
+    @property
+    def on_front(self) -> bool: ...  # no other is better in both error and `work`
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Row:
     """One candidate in its place."""
@@ -44,8 +54,7 @@ class Row:
     behind: float  # rms ln behind the best
     behind_se: float
     ns_per_sample: float
-    work: float  # operations in the time of one addition: orders equals, the same in every run
-    on_front: bool  # no other is better in both error and `work`, the same in every run
+    cost: Cost
     held_out: HeldOut | None = None
     growth: dict | None = None
     warnings: tuple[Finding, ...] = ()
@@ -55,6 +64,14 @@ class Row:
 
     def __repr__(self) -> str:
         return f"{self.rank:3}{'=' if self.tied else ' '} {self.fit!r}"
+
+    @property
+    def work(self) -> float:
+        return self.cost.work
+
+    @property
+    def on_front(self) -> bool:
+        return self.cost.on_front
 
     @property
     def seen(self) -> float:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from math import sqrt
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..models import cost
 from ..numerics import pareto
 from ..physics import seen
 from ..physics.geometry import Geometry
+from ..records import dataclass
 from . import appearance, prepared, weights
 from .choosing import recommending
 from .diagnostics import standard_errors
@@ -59,9 +60,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
     noise = max(noise, stated)
     blocks, bins = standard_errors.blocks_of(compared, along), incidence_bins(compared)
     times = time_all(fits, measurement) if timed else [0.0] * len(fits)
-    counted = compared.geom[: cost.COUNTED]
-    works = [work_of(fit, counted) for fit in fits]
-    on_front = pareto.on_front([(errors[index][metric], works[index]) for index in range(len(fits))])
+    counted = _Counted(tuple(fits), compared.geom[: cost.COUNTED], tuple(each[metric] for each in errors))
     nearest = min(range(len(fits)), key=lambda i: (not np.isfinite(errors[i][SEEN]), errors[i][SEEN]))
     rows, tied = [], True
     for place, index in enumerate(order):
@@ -72,7 +71,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
         tied = tied and alike
         rows.append(Row(
             fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, *bins), errors[index],
-            behind, error, times[index], works[index], on_front[index], warnings=fit.warnings,
+            behind, error, times[index], _CountedOne(counted, index), warnings=fit.warnings,
             from_best=look.between(index, order[0]),
             alike=seen.alike(errors[index][SEEN], errors[nearest][SEEN], look.between(index, nearest)),
         ))  # fmt: skip
@@ -201,9 +200,44 @@ def time_all(fits: Sequence[Fit], measurement: Measurement) -> list[float]:
     return [min(ns[place]) / len(geom) for place in range(len(fits))]
 
 
-def work_of(fit: Fit, geom: Geometry) -> float:
-    """Operations for one direction and channel."""
-    return cost.work(cost.operations(fit.surface.channel(0).brdf, geom))
+@dataclass(frozen=True, eq=False)
+class _Counted:
+    """Operations of fits, counted when somebody asks for them."""
+
+    fits: tuple[Fit, ...]
+    geom: Geometry
+    errors: tuple[float, ...]
+
+    @cached_property
+    def known(self) -> dict[int, float]:
+        return {}
+
+    def work(self, place: int) -> float:
+        """Operations for one direction and channel."""
+        if place not in self.known:
+            surface = self.fits[place].surface.channel(0)
+            self.known[place] = cost.work(cost.operations(surface.brdf, self.geom))
+        return self.known[place]
+
+    @cached_property
+    def on_front(self) -> list[bool]:
+        return pareto.on_front([(error, self.work(place)) for place, error in enumerate(self.errors)])
+
+
+@dataclass(frozen=True, eq=False)
+class _CountedOne:
+    """One of them."""
+
+    counted: _Counted
+    place: int
+
+    @property
+    def work(self) -> float:
+        return self.counted.work(self.place)
+
+    @property
+    def on_front(self) -> bool:
+        return self.counted.on_front[self.place]
 
 
 def _winner(metric: str, fits, errors) -> int:

@@ -20,9 +20,11 @@ from ..records import dataclass
 from .least_squares import MOST_DAMPING, STALL
 from .trust_region import GOOD, LEAST_DAMPING, LOOSE, POOR, TURNS
 
+SHORT = 0.02  # of a coordinate: a step that the quadratic model describes (ours)
 # evaluate(which (b,), at (b, parameters)) -> (b, channels, p + q + 1, samples): derivatives of each residual by the
 # shared coordinates, by its channel's own, and in the last row the residuals
 Evaluate = Callable[[np.ndarray, np.ndarray], np.ndarray]
+Equations = tuple[np.ndarray, np.ndarray, np.ndarray]  # cost (b,), slope (b, P) and normal equations (b, P, P)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +37,15 @@ class Descents:
     channels: int = 1
     low: np.ndarray = field(default_factory=lambda: np.array(-np.inf))  # bounds, which broadcast to a start
     high: np.ndarray = field(default_factory=lambda: np.array(np.inf))
+    known: Equations | None = None  # those at the starts, where they were formed before
 
     @property
     def own(self) -> int:
         """q."""
         return (self.starts.shape[1] - self.shared) // self.channels
 
-    def equations(self, which, at):
-        """Cost (b,), slope (b, P) and normal equations (b, P, P) of these problems."""
+    def equations(self, which, at) -> Equations:
+        """Of these problems."""
         grams = _grams(self.evaluate(which, at))
         p, q = self.shared, self.own
         cost = grams[:, :, -1, -1].sum(axis=1)
@@ -68,6 +71,8 @@ class Ends:
     cost: np.ndarray  # (problems,) sums of squares
     evaluations: np.ndarray  # (problems,)
     converged: np.ndarray  # (problems,)
+    slope: np.ndarray  # (problems, P)
+    normal: np.ndarray  # (problems, P, P)
 
 
 class _All:
@@ -84,15 +89,16 @@ class _All:
             self.low[part], self.high[part], starts[part] = each.low, each.high, each.starts
         self.starts = np.minimum(np.maximum(starts, self.low), self.high)
 
-    def equations(self, which, at):
-        """Cost (b,), slope (b, size) and normal equations (b, size, size) of these problems, in ascending order."""
+    def equations(self, which, at, begins: bool = False) -> Equations:
+        """Of these problems, in ascending order; `begins`: all of them where they start."""
         cost, slope = np.empty(len(at)), np.zeros(at.shape)
         normal = np.zeros((*at.shape, self.size))
         bounds = np.searchsorted(which, self.firsts).tolist()
         for each, first, start, stop in zip(self.families, self.firsts.tolist(), bounds, bounds[1:], strict=False):
             if start < stop:
                 count, part = each.starts.shape[1], slice(start, stop)
-                found = each.equations(which[part] - first, at[part, :count])
+                known = each.known if begins else None
+                found = known or each.equations(which[part] - first, at[part, :count])
                 cost[part], slope[part, :count], normal[part, :count, :count] = found
                 rest = np.arange(count, self.size)
                 normal[part, rest, rest] = 1.0
@@ -106,7 +112,7 @@ class _State:
         count = len(problems.starts)
         self.which, self.at = np.arange(count), problems.starts.copy()
         self.low, self.high = problems.low, problems.high
-        self.cost, self.slope, self.normal = problems.equations(self.which, self.at)
+        self.cost, self.slope, self.normal = problems.equations(self.which, self.at, begins=True)
         self.damping, self.least = np.full(count, LEAST_DAMPING), np.full(count, LEAST_DAMPING)
         self.scale = np.sqrt(np.maximum(_diagonal(self.normal), 1e-30))
         length = _length(self.scale * self.at)
@@ -186,17 +192,24 @@ class _State:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def minimise_all(families: Sequence[Descents], *, tolerance: float = 1e-9, most: int = 100) -> list[Ends]:
+def minimise_all(
+    families: Sequence[Descents], *, tolerance: float = 1e-9, most: int = 100, foreseen: bool = False
+) -> list[Ends]:
     """The least sums of squares that descents from the starts of each family reach.
 
-    Takes  `tolerance` and `most` as in `least_squares.minimise`, which gives the same for each alone. Raises nothing.
+    Takes  `tolerance` and `most` as in `least_squares.minimise`, which gives the same for each alone; `foreseen`: a
+    short step that would be the last is taken without looking, and cost and equations are those before it. Raises
+    nothing.
     """
     if not families:
         return []
     problems = _All(families)
     count = len(problems.starts)
-    ends = Ends(problems.starts.copy(), np.full(count, np.inf), np.ones(count, int), np.zeros(count, bool))
     state = _State(problems)
+    ends = Ends(
+        problems.starts.copy(), np.full(count, np.inf), np.ones(count, int), np.zeros(count, bool),
+        np.zeros_like(state.slope), np.zeros_like(state.normal),
+    )  # fmt: skip
     while True:
         live = ~state.converged & (state.evaluations < most) & (state.damping < MOST_DAMPING)
         if not live.all():
@@ -204,17 +217,23 @@ def minimise_all(families: Sequence[Descents], *, tolerance: float = 1e-9, most:
             state.kept(live)
             if not live.any():
                 return [_of(ends, first, each) for first, each in zip(problems.firsts.tolist(), families, strict=False)]
-        _step(problems, state, tolerance)
+        _step(problems, state, tolerance, foreseen)
 
 
-def _step(problems: _All, state: _State, tolerance: float) -> None:
+def _step(problems: _All, state: _State, tolerance: float, foreseen: bool) -> None:
     """One step of every problem that is left; of those that end before it, none."""
     trial = np.minimum(np.maximum(state.at + state.steps(), state.low), state.high)
     step = trial - state.at
     promised = -np.einsum("bk,bk->b", step, 2 * state.slope + (state.normal @ step[:, :, None])[:, :, 0])
-    short = (np.abs(step) / (1e-3 + np.abs(state.at))).max(axis=1, initial=0.0) < tolerance * 1e-2
-    state.converged = short | ((state.damping < 1e-3) & (promised > 0) & (promised < tolerance * 1e-1 * state.cost))
-    climbs = ~state.converged & ~(promised > 0)
+    length = (np.abs(step) / (1e-3 + np.abs(state.at))).max(axis=1, initial=0.0)
+    hopeful, left = promised > 0, tolerance * state.cost
+    state.converged = (length < tolerance * 1e-2) | (hopeful & (state.damping < 1e-3) & (promised < 1e-1 * left))
+    climbs = ~state.converged & ~hopeful
+    if foreseen:
+        last = ~state.converged & hopeful & (state.damping < 1.0) & (promised < left) & (length < SHORT)
+        state.at[last] = trial[last]
+        state.evaluations[last] += 1
+        state.converged |= last
     state.radius = np.where(climbs, 0.5 * np.minimum(state.radius, state.reached), state.radius)
     rows = np.flatnonzero(~state.converged & ~climbs)
     if not len(rows):
@@ -241,6 +260,7 @@ def _put(ends: Ends, state: _State, rows) -> None:
     """Notes where these have ended."""
     which = state.which[rows]
     ends.at[which], ends.cost[which] = state.at[rows], state.cost[rows]
+    ends.slope[which], ends.normal[which] = state.slope[rows], state.normal[rows]
     ends.evaluations[which] = state.evaluations[rows]
     ends.converged[which] = np.isfinite(state.cost[rows]) & (
         state.converged[rows] | (state.damping[rows] >= MOST_DAMPING)
@@ -249,8 +269,11 @@ def _put(ends: Ends, state: _State, rows) -> None:
 
 def _of(ends: Ends, first: int, family: Descents) -> Ends:
     """Those of one family."""
-    rows = slice(first, first + len(family.starts))
-    return Ends(ends.at[rows, : family.starts.shape[1]], ends.cost[rows], ends.evaluations[rows], ends.converged[rows])
+    rows, size = slice(first, first + len(family.starts)), family.starts.shape[1]
+    return Ends(
+        ends.at[rows, :size], ends.cost[rows], ends.evaluations[rows], ends.converged[rows], ends.slope[rows, :size],
+        ends.normal[rows, :size, :size],
+    )  # fmt: skip
 
 
 def _grams(stacked) -> np.ndarray:

@@ -13,7 +13,7 @@ from brdfguide.fitting.fit import FitOptions
 from brdfguide.fitting.ranked import Row
 
 from .. import synthetic
-from .test_ranking import as_fit, plastic
+from .test_ranking import Cost, as_fit, plastic
 
 LOBES = ("lambertian+he-torrance", "lambertian+ggx", "lambertian+ward")
 ORDER = {"lambertian+he-torrance": 3.0, "lambertian+ggx": 2.0, "lambertian+ward": 1.0}
@@ -34,8 +34,7 @@ def rows(errors, seen, tied=(True, False, False), cost=None) -> list[Row]:
             error - errors[0],
             0.01,
             1.0,
-            COST[name],
-            True,
+            Cost(COST[name]),
         )
         for place, (name, error, s, tie) in enumerate(zip(names, errors, seen, tied, strict=True))
     ]
@@ -116,7 +115,7 @@ def test_what_is_many_times_cheaper_may_err_much_more_and_so_may_what_noise_leav
     vague = [replace(row, behind_se=0.015) for row in near]
     assert recommended([best, *vague], "look").recommended.fit.name == "lambertian+ward"
     monkeypatch.setitem(COST, "lambertian+ward", 20.0)
-    near = [replace(row, work=COST[row.fit.name]) for row in near]
+    near = [replace(row, cost=Cost(COST[row.fit.name])) for row in near]
     assert recommended([best, *near], "look").recommended.fit.name == "lambertian+ward"
 
 

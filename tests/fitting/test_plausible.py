@@ -12,12 +12,14 @@ from brdfguide.fitting.ranked import HeldOut, Row
 from brdfguide.models import candidates
 from brdfguide.models.surface import Surface
 
+from .test_ranking import Cost
+
 
 def row(name: str, error: float, free: int, *, tied=True, rise=10.0, measured=10.0, values=None, lowest=10.0) -> Row:
     model = candidates.named(name)
     fit = Fit(Surface(model, values or {}, ("550 nm",)), {}, None, error, free, 1, 0.0, True)
     growth = {"theta_i_deg": [lowest, 75.0], "r_mirror": rise, "r_mirror_data": measured}
-    return Row(fit, 1, tied, error, {}, {"ln": error, "seen": 1.0}, 0.0, 0.0, 1.0, 10.0 * free, True, growth=growth)
+    return Row(fit, 1, tied, error, {}, {"ln": error, "seen": 1.0}, 0.0, 0.0, 1.0, Cost(10.0 * free), growth=growth)
 
 
 def test_a_dielectric_is_not_answered_by_a_lobe_without_fresnel():
@@ -53,7 +55,9 @@ def test_of_ties_one_that_errs_more_at_angles_left_out_is_passed_over_if_it_is_s
 
 def test_what_looks_alike_is_taken_only_if_it_is_simpler():
     best = row("lambertian+student-t", 0.1, 20)
-    alike = {free: replace(row("lambertian+ggx", 0.11, free, tied=False), close=True, work=1.0) for free in (18, 19)}
+    alike = {
+        free: replace(row("lambertian+ggx", 0.11, free, tied=False), close=True, cost=Cost(1.0)) for free in (18, 19)
+    }
     assert picked((best, alike[18]), "look")[0] is alike[18]
     assert picked((best, alike[19]), "look")[0] is best
 

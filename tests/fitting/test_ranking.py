@@ -1,6 +1,6 @@
 """Fits against each other: errors that deserve trust, differences that are real, ties."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -18,6 +18,14 @@ from .. import synthetic
 
 GGX = models.get("lambertian+ggx")
 TRUTH = {"lambertian.albedo": 0.3, "ggx.alpha": 0.22, "ggx.n": 1.5}
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of a row that is made by hand."""
+
+    work: float
+    on_front: bool = True
 
 
 def plastic(geom=None, **options):
