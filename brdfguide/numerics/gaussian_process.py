@@ -79,7 +79,8 @@ class Weighed:
         here = onward_slopes @ self.moved.T + onward @ (pull * (q - self.moved @ j.T)).T
         loose = onward_slopes - onward @ (pull[:, :, None] * j)
         of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)
-        of_slopes = np.sum(loose * np.linalg.solve(self.inside, loose.transpose(0, 2, 1)).transpose(0, 2, 1), axis=2).T
+        # lᵀ A⁻¹ l by the inverse of A's triangular factor, which has no rows of right hand sides to solve for
+        of_slopes = np.square(loose @ np.linalg.inv(np.linalg.cholesky(self.inside)).transpose(0, 2, 1)).sum(axis=2).T
         mean = here @ self.probable
         square = (here**2 + self.noise * np.maximum(of_unknown + of_slopes, 0.0)) @ self.probable
         share = self.probable.sum()

@@ -43,7 +43,7 @@ def fresnel(cos_d, n, k=0.0):
     total = total * total
     total *= all_of_it
     share *= e2
-    if np.all(e2):
+    if e2.all():
         share /= total
     else:  # no interface: 0 even at grazing, where the formula is 0/0
         share = np.divide(share, total, out=np.zeros_like(total), where=share > 0)
@@ -68,7 +68,7 @@ def one_minus_fresnel(cos_d, n, k=0.0):
 def _interface(cos_d, n, k):
     """|N²-1|², |q+c|², P = |q|²c² + s⁴, P + 2 c s² Re q, 2 c Re q, s², in units of u² (1; (n+k)² if enormous)."""
     c, n, k = np.asanyarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
-    enormous = np.max(n + k) > 1e38  # its squares may overflow
+    enormous = (n + k).max() > 1e38  # its squares may overflow
     u = n + k if enormous else 1.0
     n_u, k_u, minus, plus = n / u, k / u, (n - 1) / u, (n + 1) / u
     e2 = (minus * minus + k_u * k_u) * (plus * plus + k_u * k_u)
@@ -76,7 +76,7 @@ def _interface(cos_d, n, k):
     c2_u = c_u * c_u
     s2 = (1 - c) * (1 + c)
     x = c2_u + (minus * plus - k_u * k_u)  # q² = x + iy
-    if np.any(k):
+    if k.any():
         small = (n < SMALL_INDEX) & (k < SMALL_INDEX)
         if np.any(small):  # N² would be lost beside the 1 that c² takes away
             x = np.where(small, (n - k) * (n + k) - s2, x)
@@ -106,7 +106,7 @@ def fresnel_with_slopes(cos_d, n, k=0.0):
     """
     c, n, k = np.asanyarray(cos_d, float), np.asarray(n, float), np.abs(np.asarray(k, float))
     s2 = (1 - c) * (1 + c)
-    if np.any(k) or np.any(n < 1):
+    if k.any() or (n < 1).any():
         index = n + 1j * k
         e = (n - 1) * (n + 1) - k * k + 2j * n * k
         q = np.sqrt(e + c * c)
