@@ -28,11 +28,12 @@ MUCH_CHEAPER = 4.0  # times fewer operations, from which on such a one may be re
 
 def recommending(ranking: Ranking, measurement: Measurement) -> Ranking:
     """The same with the model to use, why, which come close enough, and how good the best looks."""
-    best = trusted(ranking.rows)[0]
+    good = trusted(ranking.rows)
+    best = good[0]
     if ranking.close == "look" and _is_stray_light(best):
         ranking = replace(ranking, close="none")
     grain = best.fit.model.turns and turned_grain(measurement)
-    rows = tuple(replace(row, close=is_close(row, best, ranking, grain)) for row in ranking.rows)
+    rows = tuple(replace(row, close=_is_close(row, good, ranking.close, grain)) for row in ranking.rows)
     pick, because = picked(rows, ranking.close, ranking.kind)
     doubts = tuple(each for each in ranking.warnings if each.effect is not Effect.OF_LOOKS)
     looks = (_no_look(rows), appearance.too_coarse(best.fit.surface, measurement))
@@ -50,18 +51,20 @@ def _is_stray_light(row: Row) -> bool:
     return any(term.model.candidacy and term.model.candidacy.polished for term in row.fit.model.terms)
 
 
-def is_close(row: Row, best: Row, ranking: Ranking, grain: bool = False) -> bool:
-    """Whether a row comes close enough to the best that can be trusted: `look`, to the eye; `N%`, by its error; `none`,
-    never. To the eye none without a grain does where the data show one: it is the turning that is looked at."""
-    if ranking.close == "none" or row not in trusted(ranking.rows):
+def _is_close(row: Row, good: Sequence[Row], close: str, grain: bool) -> bool:
+    """Whether a row comes close enough to the best of the `good` that can be trusted: `look`, to the eye; `N%`, by its
+    error; `none`, never. To the eye none without a grain does where the data show one: it is the turning that is looked
+    at."""
+    best = good[0]
+    if close == "none" or row not in good:
         return False
-    if ranking.close == "look":
+    if close == "look":
         if grain and not row.fit.model.turns:
             return False
-        least = min(each.seen for each in trusted(ranking.rows))
+        least = min(each.seen for each in good)
         allowed = best.rms_ln + max(ALLOWED, ALLOWED_SHARE * best.rms_ln) + 1e-9
         return row is best or (seen.close_enough(row.seen, least) and row.rms_ln <= allowed)
-    return row.rms_ln - best.rms_ln <= percent_of(ranking.close) / 100
+    return row.rms_ln - best.rms_ln <= percent_of(close) / 100
 
 
 def percent_of(close: str) -> float:

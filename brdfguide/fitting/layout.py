@@ -142,9 +142,7 @@ class Layout:
     def encode(self, values: Mapping) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates (p,) and (channels, q) of `values`; what is not given keeps its default."""
         values = {**self.model.defaults(), **values}
-        shared = np.array(
-            [float(np.mean(to_coordinate(self.parameters[key], np.asarray(values[key], float)))) for key in self.shared]
-        )
+        shared = np.array([_mean(to_coordinate(self.parameters[key], values[key])) for key in self.shared])
         for grain, keys in self.grains if self.walks else ():
             start = (float(np.mean(values[key])) for key in keys)
             shared[[self.shared.index(key) for key in keys]] = grain_walk.walk_of(grain, *start)
@@ -214,6 +212,10 @@ class Layout:
 def _below_one(index: Parameter) -> Parameter:
     """An index that is searched for beside k: of a metal it may lie below 1."""
     return replace(index, low=index.least, origin=0.0)
+
+
+def _mean(value) -> float:
+    return float(np.mean(value)) if np.ndim(value) else float(value)
 
 
 def to_coordinate(parameter: Parameter, value):

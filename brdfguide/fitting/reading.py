@@ -151,7 +151,7 @@ def _of_laws(layout: Layout, values: Mapping, geom: Geometry) -> dict[int, tuple
             {name: 1.0 if name == model.amplitude else values[key] for name, key in layout.by_term[place][1].items()}
             for place in places
         ]
-        surfaces = {np.shape(each)[0] for term in terms for each in term.values() if np.ndim(each) == 3}
+        surfaces = {len(each) for term in terms for each in term.values() if _of_many(each)}
         count = max(surfaces, default=0)
         if len(surfaces) != 1 or len(terms) * count * geom.shape[-1] > TOGETHER:
             continue
@@ -160,21 +160,25 @@ def _of_laws(layout: Layout, values: Mapping, geom: Geometry) -> dict[int, tuple
         for turn, place in enumerate(places):
             part = slice(turn * count, (turn + 1) * count)
             parts = [
-                each[part] if np.ndim(each) == 3 and len(each) == count * len(terms) else each
+                each[part] if _of_many(each) and len(each) == count * len(terms) else each
                 for each in (shape, *known.values())
             ]
             found[place] = parts[0], dict(zip(known, parts[1:], strict=True))
     return found
 
 
+def _of_many(value) -> bool:
+    """Whether a value is that of many surfaces, (surfaces, ., .)."""
+    return isinstance(value, np.ndarray) and value.ndim == 3
+
+
 def _stacked(terms: list[dict], name: str, surfaces: int):
     """The values of a parameter of several terms one after another; a number where it is the same of all."""
     each = [term[name] for term in terms]
+    if all(map(_of_many, each)) and len({value.shape for value in each}) == 1:
+        return np.concatenate(each)
     if not any(map(np.ndim, each)) and len(set(map(float, each))) == 1:
         return each[0]
-    shape = np.shape(each[0])
-    if len(shape) == 3 and all(np.shape(value) == shape for value in each):
-        return np.concatenate(each)
     channels = max(np.shape(value)[1] if np.ndim(value) == 3 else 1 for value in each)
     return np.concatenate([np.broadcast_to(value, (surfaces, channels, 1)) for value in each])
 

@@ -36,10 +36,10 @@ def gradient(geom: Geometry, names, *, ks, tilt, exponent) -> dict[str, np.ndarr
     above, ln_base = _ln_base(geom, *_coefficients(tilt))
     lobe = np.where(above, np.exp(exponent * ln_base), 0.0)
     wide = np.abs(tilt) < pi / 4
-    if not np.any(wide):
+    if not wide.any():
         sin = np.sin(tilt)
         turned = geom.cos_cos / -(sin * np.abs(sin))
-    elif np.all(wide):
+    elif wide.all():
         turned = geom.dot_xy / -(np.cos(tilt) ** 2)
     else:
         sin, cos = np.where(wide, 1.0, np.sin(tilt)), np.cos(tilt)
@@ -62,7 +62,7 @@ def c_z(tilt):
 def _coefficients(tilt):
     """-c_xy - 1, c_xy and c_z + c_xy; the last from the angle off the mirror lobe, where the two cancel."""
     wide, sin = np.abs(tilt) < pi / 4, np.sin(tilt)
-    if np.any(wide):
+    if wide.any():
         xy, length = np.where(wide, -np.tan(tilt), -np.sign(tilt)), np.where(wide, np.cos(tilt), np.abs(sin))
     else:
         xy, length = -np.sign(tilt), np.abs(sin)

@@ -213,16 +213,19 @@ class Model:
                 return parameter
         raise choices(f"parameter of {self.name}", name, [p.name for p in self.parameters])
 
-    def defaults(self) -> dict[str, float]:
+    @cached_property
+    def _defaults(self) -> dict[str, float]:
         return {p.name: p.default for p in self.parameters}
+
+    def defaults(self) -> dict[str, float]:
+        return self._defaults.copy()
 
     def __call__(self, geom: Geometry, **values) -> np.ndarray:
         """BRDF [1/sr] in the broadcast shape of `geom`, its wavelength and the values; parameters not given keep their
         defaults."""
-        defaults = self.defaults()
-        for name in values.keys() - defaults.keys():
+        for name in values.keys() - self._defaults.keys():
             self.parameter(name)
-        values = {**defaults, **values}
+        values = {**self._defaults, **values}
         if geom.all_lit:
             return self.brdf(geom, **values)
         return np.where(geom.lit, self.brdf(geom.where_lit(), **values), 0.0)
@@ -298,8 +301,12 @@ class Composite:
                 found.setdefault(term.key(parameter.name), parameter)
         return found
 
-    def defaults(self) -> dict[str, float]:
+    @cached_property
+    def _defaults(self) -> dict[str, float]:
         return {**{key: p.default for key, p in self.parameters.items()}, **self.start, **self.fixed}
+
+    def defaults(self) -> dict[str, float]:
+        return self._defaults.copy()
 
     def has(self, name: str) -> bool:
         """Whether `alpha` or `ggx.alpha` is one of its parameters."""
@@ -328,9 +335,8 @@ class Composite:
 
     def __call__(self, geom: Geometry, values: Mapping) -> np.ndarray:
         """BRDF [1/sr]; raises InputError for a key that is no parameter of any term."""
-        for key in values:
-            if key not in self.parameters:
-                raise choices(f"parameter of {self.name}", key, list(self.parameters))
+        for key in values.keys() - self.parameters.keys():
+            raise choices(f"parameter of {self.name}", key, list(self.parameters))
         values = {**self.start, **self.fixed, **values}
         return sum((term.model(geom, **self.of_term(term, values)) for term in self.terms), start=np.zeros(()))
 

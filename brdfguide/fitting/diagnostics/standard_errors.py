@@ -161,7 +161,7 @@ def errors_of_a_wrong_model(layout: Layout, values: Mapping, normal: Normal, mis
     moved, per_channel_moved = normal.influence(*misfit)
 
     def variance(pulls):
-        return max(float(np.sum(np.bincount(each, pulls) ** 2)) for each in blocks)
+        return max(float(sums @ sums) for sums in (np.bincount(each, pulls) for each in blocks))
 
     shared = np.array([variance(column) for column in moved.T])
     per_channel = np.array([[variance(column) for column in channel.T] for channel in per_channel_moved]).reshape(
@@ -196,7 +196,7 @@ def parameter_doubts(
         span = parameter.high - parameter.low
         for end, bound in (("low", parameter.low), ("high", parameter.high)):
             at = _at(bound, value)
-            if np.any(at) and not (parameter.linear and end == "low"):
+            if at.any() and not (parameter.linear and end == "low"):
                 found.append(
                     Finding(
                         "at-bound",
@@ -206,13 +206,13 @@ def parameter_doubts(
                         subject=key,
                     )
                 )
-            elif np.all(at):
+            elif at.all():
                 found.append(
                     Finding("unused", f"{key} is 0: the term is not needed", "note", "leave it out", subject=key)
                 )
         away = np.abs(value - parameter.origin) if parameter.log else np.maximum(np.abs(value), 1e-3 * span)
         loose = error / np.maximum(away, 1e-300)
-        if (loose[0] if loose.size == 1 else np.median(loose)) > LOOSE and np.any(value > parameter.low):
+        if (loose[0] if loose.size == 1 else np.median(loose)) > LOOSE and (value > parameter.low).any():
             found.append(
                 Finding(
                     "undetermined",
@@ -265,7 +265,9 @@ def _ridge(layout: Layout, values: Mapping, normal: Normal, variance: float) -> 
         place
         for place, key in enumerate(keys)
         if full[place, place] > 0
-        and not np.any([_at(bound, values[key]) for bound in (layout.parameters[key].low, layout.parameters[key].high)])
+        and not any(
+            np.any(_at(bound, values[key])) for bound in (layout.parameters[key].low, layout.parameters[key].high)
+        )
     ]
     if len(free) < 2:
         return []

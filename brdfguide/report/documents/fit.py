@@ -41,6 +41,7 @@ def fit_document(
     read_with: Mapping[str, Any] = MappingProxyType({}),
 ) -> dict:
     """`brdfguide fit --json` (CLI contract); `read_with` is what was said of the file's meaning, for `verify`."""
+    rows = [_row(row, measurement, timing, _shows(row, ranking)) for row in _recommended_first(ranking)]
     return with_digest(
         {
             "schema": "brdfguide/fit/1",
@@ -53,12 +54,12 @@ def fit_document(
             "seen_weights": ranking.seen_weights,
             "noise": _noise(ranking, measurement),
             "noise_rms_ln": _round(ranking.noise),
-            "ranking": [_row(row, measurement, timing, _shows(row, ranking)) for row in _recommended_first(ranking)],
+            "ranking": rows,
             "floor": floor_block(ranking),
             "seen_order": _seen_order(ranking),
             "no_answer": ranking.no_answer or None,
             "recommended": ranking.recommended.fit.name,
-            "recommended_fit": _row(ranking.recommended, measurement, timing, ranking.shows),
+            "recommended_fit": rows[0],
             "trustworthy": not ranking.no_answer,
             "because": ranking.because,
             "winners": ranking.winners,
@@ -305,7 +306,9 @@ def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
 
 def _of_channels(parameter, value, fit: Fit):
     """Of what belongs to channels an array with a value for each, also where it was held; of the rest a number."""
-    return np.broadcast_to(value, len(fit.surface.channels)) if parameter.per_channel else value
+    if not parameter.per_channel or np.shape(value) == (len(fit.surface.channels),):
+        return value
+    return np.broadcast_to(value, len(fit.surface.channels))
 
 
 def _typed(fit: Fit) -> dict:
