@@ -26,7 +26,7 @@ from .layout import Layout, layout_of
 from .objective import SMALLEST, Misfit, metric
 from .prepared import few_channels
 from .ranked import HeldOut, LeftOut, Ranking
-from .reading import many, reading
+from .reading import kept_of, many, reading
 from .residuals import ln_residuals
 
 FOLDS = 4  # groups of incidence angles, each left out in turn; the highest angles are the last
@@ -57,7 +57,9 @@ def held_out_from(
     for model, values in models:
         layout = layout_of(model, used.brdf.shape[1], options.shape_per_channel)
         misfit = Misfit(layout, used, metric(options.metric), np.ones_like(used.brdf))
-        followings.append(Following(misfit, [layout.encode(values)] * len(folds), kept))
+        known = kept_of(Surface(model, values, used.channels, used.geom.wavelength), used.instrument)
+        begun = known if known is not None and known.layout is layout else None
+        followings.append(Following(misfit, [layout.encode(values)] * len(folds), kept, begun=begun))
     found = follow(followings, 1e-4, 20, foreseen=True)
     return [_held_out(each, ends, folds) for each, ends in zip(followings, found, strict=True)]
 

@@ -22,6 +22,7 @@ from .followed import End, Following, follow
 from .layout import Layout
 from .objective import METRICS, metric
 from .prepared import Prepared, Subset, expecting, few_channels, prepare
+from .reading import keep
 from .residuals import ln_residuals, rms, rms_over_all
 
 PRUNED = 4.0  # times the best error beyond which a model is not refined
@@ -183,7 +184,8 @@ def _ended_together(
 
 def _told(searched: Search, data: Prepared, on: Subset, options: FitOptions, ended: End) -> tuple[Minimum, Subset, int]:
     """The same as `_settled`, of a descent that has ended; by itself where its last step went astray."""
-    misfit = on.misfit(searched.layout, metric(options.metric))
+    misfit, layout = on.misfit(searched.layout, metric(options.metric)), searched.layout
+    keep(layout, layout.surface(ended.shared, ended.per_channel, on.measurement), on.measurement.instrument)
     best = standing(misfit, ended.shared, ended.per_channel, ended.evaluations, ended.converged)
     if best.cost > ended.cost * (1 + ROUNDING):
         return _settled(searched, data, on, options)

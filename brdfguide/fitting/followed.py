@@ -34,13 +34,13 @@ class Together:
 
     misfit: Misfit
     kept: np.ndarray | None = None  # (surfaces, samples): which values each of them looks at; None: at all
+    begun: tuple[np.ndarray, reading.Kept] | None = None  # coordinates of a surface of which the reading is kept
 
     def __call__(self, which, at) -> np.ndarray:
         misfit, layout = self.misfit, self.misfit.layout
         p, q = len(layout.shared), len(layout.per_channel)
         one = at[0, 0] == at[-1, 0] and len(at) > 1 and bool((at == at[0]).all())  # folds begin at one surface
-        values = layout.decode_all(at[:1] if one else at)
-        f, slopes = reading.many_with_slopes(layout, values, misfit.measurement.instrument, self._constant)
+        f, slopes = self._reading(at[:1] if one else at)
         shape = len(at), layout.channels, len(misfit.weights)
         kept = None if self.kept is None else self.kept[which, None, :]
         stacked = np.empty((*shape[:2], p + q + 1, shape[2]))
@@ -54,6 +54,13 @@ class Together:
             np.multiply(slopes[key], factor, out=stacked[:, :, place])
         misfit.within_range(least, stacked[:, :, :-1])
         return stacked
+
+    def _reading(self, at) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        if self.begun is not None and len(at) == 1 and bool((at[0] == self.begun[0]).all()):
+            known = self.begun[1]
+            return known.reading.T[None], {key: slope.T[None] for key, slope in known.slopes.items()}
+        layout, instrument = self.misfit.layout, self.misfit.measurement.instrument
+        return reading.many_with_slopes(layout, layout.decode_all(at), instrument, self._constant)
 
     @cached_property
     def _constant(self) -> dict:
@@ -69,6 +76,7 @@ class Following:
     starts: Sequence[tuple[np.ndarray, np.ndarray]]  # (shared, per_channel)
     kept: np.ndarray | None = None  # (starts, samples): which values each of them looks at; None: at all
     known: Sequence[End] | None = None  # where other descents on the same values ended, if these begin there
+    begun: reading.Kept | None = None  # what is read of the surface at which all begin
 
     @classmethod
     def on(cls, misfit: Misfit, ends: Sequence[End]) -> "Following":
@@ -92,8 +100,9 @@ class Following:
             for shared, own in zip(layout.bounds(layout.shared), layout.bounds(layout.per_channel), strict=True)
         )
         at = np.array([np.concatenate((shared, per_channel.ravel())) for shared, per_channel in self.starts])
+        together = Together(self.misfit, self.kept, None if self.begun is None else (at[0], self.begun))
         known = _known(self.known or ())
-        return Descents(Together(self.misfit, self.kept), at, len(layout.shared), layout.channels, low, high, known)
+        return Descents(together, at, len(layout.shared), layout.channels, low, high, known)
 
     def one_by_one(self, tolerance: float, most: int) -> list[End]:
         """Each of them by itself."""

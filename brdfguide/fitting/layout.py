@@ -206,7 +206,15 @@ class Layout:
 
     def surface(self, shared, per_channel, measurement: Measurement) -> Surface:
         """What the coordinates stand for, in the channels of the measurement."""
-        return Surface(self.model, self.decode(shared, per_channel), measurement.channels, measurement.geom.wavelength)
+        key = shared.tobytes(), per_channel.tobytes()
+        if self._latest.get("key") != key:
+            self._latest.update(key=key, values=self.decode(shared, per_channel))
+        return Surface(self.model, self._latest["values"], measurement.channels, measurement.geom.wavelength)
+
+    @cached_property
+    def _latest(self) -> dict:
+        """The coordinates that were last asked for, and what they stand for: one object, by which it is known again."""
+        return {}
 
 
 def _below_one(index: Parameter) -> Parameter:

@@ -191,7 +191,7 @@ class _Known:
     def of(cls, measurement: Measurement, laws: list[Row], there: Instrument) -> "_Known":
         rows = np.flatnonzero(measurement.has_value)
         rows = rows[starting_grid.spread_rows(measurement[rows], SAMPLES)]
-        part = measurement[rows]
+        part = measurement if len(rows) == len(measurement.brdf) else measurement[rows]
         channels = few_channels(measurement.brdf.shape[1])
         left = [
             -(
@@ -202,7 +202,7 @@ class _Known:
             for row in laws
         ]
         clear = np.all([np.isfinite(each).all(axis=1) for each in left], axis=0)
-        part = part[clear]
+        part = part if clear.all() else part[clear]
         geom = part.of_channels(channels).geom
         there = Instrument(there.geom.at(geom.wavelength), there.solid_angle)
         places = Places.between(places_of_missed(geom), places_of_missed(there.geom))

@@ -10,20 +10,26 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from ..formed import formed
 from ..models.model import Model, Parameter
 from ..models.surface import Surface
 from ..physics.aperture import Instrument
-from ..physics.geometry import Geometry
+from ..physics.geometry import Directions, Geometry
+from ..records import dataclass
 from .layout import Layout, from_coordinate, slope_of_coordinate, to_coordinate
 
 LARGE = 32_768  # directions beyond which blocks and threads pay
 THREADS = 2
+MOST_KEPT = 1024  # directions of a list whose readings are kept
 TOGETHER = 8192  # values up to which the terms of one law are evaluated in one call
 STEP = 1e-5  # of a coordinate, for central differences
 
 
 def reading(surface: Surface, instrument: Instrument) -> np.ndarray:
     """BRDF [1/sr] as the detector reports it, (samples, channels); 0 below the horizon."""
+    known = kept_of(surface, instrument)
+    if known is not None:
+        return known.reading
     if instrument.solid_angle is None:
         return evaluate(surface, instrument.geom)
     total = np.zeros((len(instrument.geom), len(surface.channels)))
@@ -34,8 +40,46 @@ def reading(surface: Surface, instrument: Instrument) -> np.ndarray:
 
 def with_slopes(layout: Layout, surface: Surface, instrument: Instrument) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """`reading`, and its derivative with respect to each free coordinate; the mirror beam's by central differences."""
+    known = kept_of(surface, instrument)
+    if known is not None and known.layout is layout:
+        return known.reading, known.slopes
     total, slopes = _with_slopes(layout, surface, instrument)
     return total, layout.walked(slopes, surface.values)
+
+
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """What an instrument reads of a surface, and the slopes of that."""
+
+    layout: Layout
+    surface: Surface
+    reading: np.ndarray  # (samples, channels)
+    slopes: dict[str, np.ndarray]
+
+
+def keep(layout: Layout, surface: Surface, instrument: Instrument) -> Kept | None:
+    """`with_slopes`, which answers again for as long as the directions are there; None of long lists."""
+    if instrument.geom.shape[0] > MOST_KEPT:
+        return None
+    found = Kept(layout, surface, *with_slopes(layout, surface, instrument))
+    _all_kept(instrument.geom)[id(surface.values), instrument.solid_angle] = found
+    return found
+
+
+@formed
+def _all_kept(to: Directions) -> dict[tuple[int, float | None], Kept]:
+    """By the identity of the surface's values, which are kept with it, and the solid angle."""
+    return {}
+
+
+def kept_of(surface: Surface, instrument: Instrument) -> Kept | None:
+    """What `keep` has of a surface with these very values."""
+    if instrument.geom.shape[0] > MOST_KEPT:
+        return None
+    found = _all_kept(instrument.geom).get((id(surface.values), instrument.solid_angle))
+    if found is None or found.surface.model is not surface.model:
+        return None
+    return found if np.array_equal(found.surface.wavelength, surface.wavelength) else None
 
 
 def _with_slopes(layout: Layout, surface: Surface, instrument: Instrument) -> tuple[np.ndarray, dict[str, np.ndarray]]:
