@@ -36,7 +36,7 @@ def read_typed(path, schema: Schema) -> Any:
 def parsed(data: bytes, schema: Schema, name: str) -> Any:
     """The same of bytes."""
     try:
-        document = json.loads(data, parse_constant=_no_number)
+        document = json.loads(data, parse_constant=_no_number, object_pairs_hook=_once_each)
     except RecursionError:
         raise InputError(f"{name}: nested too deeply for {schema.wanted}") from None
     except ValueError as error:
@@ -51,6 +51,16 @@ def parsed(data: bytes, schema: Schema, name: str) -> Any:
 
 def _no_number(word: str):
     raise ValueError(f"{word} is no number")
+
+
+def _once_each(pairs: list[tuple[str, Any]]) -> dict:
+    """An object; who reads it differently would read another value of a key that stands there twice."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise ValueError(f"'{short(twice)}' stands there twice")
+    return found
 
 
 def _unknown(said, schema: Schema) -> str:

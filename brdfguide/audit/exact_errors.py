@@ -44,10 +44,12 @@ class Readings:
     robust: bool = False  # values far off counted little
     taken: list[list[bool]] | None = None  # where they are told, if that is known already
     faults: bool = False  # what the instrument may do unnoticed was counted as doubt
+    beyond: tuple[tuple[float, float], ...] = ()  # what theta_i and theta_r have beyond the digits that are read [deg]
 
     @cached_property
     def sights(self) -> list[ExactReading]:
-        return [ExactReading(each, self.solid_angle) for each in self.angles]
+        pairs = zip(self.angles, self.beyond or [(0.0, 0.0)] * len(self.angles), strict=True)
+        return [ExactReading((i + i2, at, r + r2, to), self.solid_angle) for (i, at, r, to), (i2, r2) in pairs]
 
     @cached_property
     def told(self) -> list[list[bool]]:
@@ -159,7 +161,7 @@ def undrifted(data: Readings, found: dict) -> Readings:
         angles.append((theta_i, phi_i, abs(after), phi_r + turn))
         gain = gains[min(gains, key=lambda theta: abs(theta - theta_i))]
         values.append(tuple(float(mpf(value) / exp(mpf(gain))) for value in row))
-    return replace(data, angles=tuple(angles), values=tuple(values))
+    return replace(data, angles=tuple(angles), values=tuple(values), beyond=())
 
 
 def _gains(found: dict) -> dict[float, float]:

@@ -87,6 +87,7 @@ def _with_values(data: Readings, residuals: list[list]) -> tuple[Readings, list[
         values=tuple(data.values[place] for place in kept),
         stated=None if data.stated is None else tuple(data.stated[place] for place in kept),
         taken=None if data.taken is None else [data.taken[place] for place in kept],
+        beyond=tuple(data.beyond[place] for place in kept) if data.beyond else (),
     )
     return few, [residuals[place] for place in kept]
 

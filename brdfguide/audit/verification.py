@@ -8,6 +8,7 @@ follow from its answer: that is said, and only the answer's digest holds it.
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from math import pi
 
 from mpmath import cos, erfc, expm1, mpc, mpf, radians, sin, sqrt, tan, workdps
 
@@ -22,6 +23,7 @@ from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
 from .rederived import Comparisons, Rederived
 
 DIGITS = 30  # of the arithmetic
+ROUNDED = 1e-12  # deg, of a double near 90
 WHITE = 39  # L* by which white changes with ln f, 116/3
 ROUNDED_L = 1e-12  # L* that rounding leaves of a model that is exact
 
@@ -99,6 +101,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         found = f"{channels} channel{'s' * (channels != 1)}"
         raise InputError(f"{measurement.name}: found {found}; the answer has {told}: are they its data?")
     columns = (geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg)
+    beyond = (_beyond(geom.theta_i_deg, geom.theta_i), _beyond(geom.theta_r_deg, geom.theta_r))
     wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
     wavelengths = wavelengths if isinstance(wavelengths, list) else [wavelengths]
     codes = {each["code"] for each in answer["data"]["findings"]}
@@ -116,6 +119,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         stated=tuple(map(tuple, errors.tolist())) if errors is not None else None,
         robust="weighed-robustly" in codes,
         faults=bool(measurement.otherwise),
+        beyond=tuple(zip(*(column.ravel().tolist() for column in beyond), strict=True)),
     )
 
 
@@ -124,6 +128,12 @@ def _parameters_of(row: dict) -> int:
     values = [entry["value"] for entry in row["parameters"].values()]
     values += [value for fold in row.get("held_out_fits") or [] for value in fold["values"].values()]
     return sum(map(_size, values))
+
+
+def _beyond(told, radians):
+    """What zeniths [deg] are beyond the digits that people read, 1e-9: those of vectors and of radians have more."""
+    more = radians * (180 / pi) - told
+    return more * (abs(more) > ROUNDED)
 
 
 def _has(row: dict, code: str) -> bool:

@@ -44,7 +44,7 @@ def verify(request: VerifyRequest) -> None:
     except ImportError:
         raise InputError("verify needs the package mpmath: pip install 'brdfguide[verify]'") from None
     document = _answer(request.answer_file, request.model)
-    file = request.data or Path(document["data"]["file"])
+    file = request.data or _its_data(document["data"]["file"], request.answer_file)
     data = verification.readings_of(reread(file, document["data"], request.answer_file), document)
     with progress(len(document["ranking"]), request.quiet) as tell:
         found = verification.verify(document, data, request.model, tell)
@@ -52,6 +52,15 @@ def verify(request: VerifyRequest) -> None:
     print_json(result) if request.json else answer(result, False, verification_text)
     if not result["agrees"]:
         raise NoAnswer(f"{request.answer_file}: it does not hold")
+
+
+def _its_data(name: str, answer_file: Path) -> Path:
+    """The file that an answer names. Raises InputError for one of a folder, which is of every file of its content."""
+    from ..batch.run import MISSING_FILE
+
+    if name.startswith(MISSING_FILE):
+        raise InputError(f"{answer_file}: of a folder of answers, it names no file; say which: verify ANSWER.json DATA")
+    return Path(name)
 
 
 def _answer(path: Path, model: str | None) -> dict:

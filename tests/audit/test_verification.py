@@ -340,6 +340,23 @@ def test_other_data_are_refused_or_differ(answer):
         verification.readings_of(three, document)
 
 
+@pytest.mark.parametrize("alpha", [0.005, 0.05])
+def test_angles_of_more_digits_than_people_read_hold_under_a_narrow_lobe(alpha):
+    """Of vectors (photographs, RGL) and radians; rounded to 1e-9 degrees they would move every residual."""
+    draw = np.random.default_rng(3)
+    theta_i = np.repeat(draw.uniform(5, 70, 5), 12)
+    theta_r = np.maximum(theta_i + draw.normal(0, 3 * np.degrees(alpha), len(theta_i)), 0.5)
+    light, view = (
+        np.stack([sign * np.sin(np.radians(each)), 0 * each, np.cos(np.radians(each))], axis=-1)
+        for sign, each in ((1, theta_i), (-1, theta_r))
+    )
+    surface = Surface.named("lambertian+ggx", {"albedo": 0.1, "ggx.alpha": alpha, "ggx.n": 1.5})
+    for geom in (rows(Geometry.from_degrees(theta_i, 0, theta_r, 180)), rows(Geometry.from_vectors(light, view))):
+        brdf = surface.brdf(geom) * np.exp(draw.normal(0, 0.03, (len(theta_i), 1)))
+        found = fit(Measurement(geom, brdf, ("550nm",), name="made"), ("lambertian+ggx",), timing=False)
+        assert not verified((found.measurement, json.loads(json.dumps(found.document)))).wrong
+
+
 def test_a_law_that_no_textbook_has_is_named(answer):
     document = deepcopy(answer[1])
     document["ranking"][0]["model"] = "lambertian+openpbr"
@@ -372,6 +389,10 @@ def test_the_command_ends_with_1_where_a_digit_was_changed_and_2_for_no_answer(t
     assert changed.returncode == 1 and json.loads(changed.stdout)["differ"][0]["place"] == "ranking[0].behind_se"
     (tmp_path / "none.json").write_text('{"schema": "brdfguide/fit/1"}')
     assert run("verify", str(tmp_path / "none.json")).returncode == 2
+    twice = made.stdout.replace('"behind_se": ', '"behind_se": 0.5, "behind_se": ', 1)
+    (tmp_path / "twice.json").write_text(twice)
+    wrong = run("verify", str(tmp_path / "twice.json"))
+    assert wrong.returncode == 2 and "'behind_se' stands there twice" in wrong.stderr
     wrong = run("verify", str(tmp_path / "fit.json"), "--model", "wrad")
     assert wrong.returncode == 2 and "no fitted model called 'wrad'" in wrong.stderr
 
