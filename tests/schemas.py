@@ -32,6 +32,7 @@ COMMANDS = (
     "recommend --files-from {listed} --no-timing --json",
     "fit nowhere.csv also-nowhere.csv -m lambertian --json",
     "recommend porcelain --json",
+    "recommend chrome --json",
     "recommend gold-leaf blue-car-paint velvet wet-stone --json --no-timing --explain",
     f"recommend office-paper {PAPER} -m lambertian+ggx --json --numbers --as gltf --scene default",
     "recommend {described} --json --export gltf:{out}/it.gltf",
@@ -99,7 +100,7 @@ FILES = {
     "described.yaml": "name: mug\ncomposition: porcelain\nappearance: solid colour\nfinish: high gloss\n"
     "diffuse_reflectance: [0.05, 0.10, 0.30]\ngloss: {20: 80, 60: 92}\n",
     "hair.yaml": "structure: hair\n",
-    "listed.txt": "porcelain\ngold-leaf\nno-such-material\n",
+    "listed.txt": "porcelain\ngold-leaf\ncopper\nno-such-material\n",
     "dimmed.csv": "theta_deg,R,G,B\n60,0.03,0.01,0.001\n75,0.28,0.18,0.08\n85,0.71,0.63,0.5\n",
 }
 MAPS = {  # keys whose values are objects with free keys
@@ -112,7 +113,7 @@ NULLABLE = {  # null where the data do not say it, which the commands above all 
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
     *("r_mirror_data", "r_max_data", "gloss_gu", "held_out_rms_ln", "seen", "stderr", "known_to", "shows_from"),
     *("measured_rms_ln", "measured_off_percent", "key", "energy", "reciprocity", "off_plane", "missing"),
-    *("noise_relative", "with_it", "held_out_fits"),
+    *("noise_relative", "with_it", "held_out_fits", "at_mirror", "greatest", "high", "needs"),
 }
 OPTIONAL = {  # there or not, as was asked
     *("time_per_sample_ns", "ns_per_sample", "fit_time_s", "on_front", "standard_error_left", "differ_by_noise"),

@@ -8,6 +8,7 @@ which cannot overwrite.
 from collections.abc import Mapping
 from dataclasses import field, fields, replace
 from math import pi, radians
+from pathlib import Path
 from typing import Any
 
 from ..physics.picked_colour import of_hex
@@ -15,7 +16,7 @@ from ..physics.roughness_senses import SENSES, USUAL, alpha_of
 from ..records import dataclass
 from ..yaml_schema import Document, parse, read, written
 from .observed_fields import FIELDS, OBSERVATIONS, PATCHES
-from .profile import HEIGHTS, band_of, height_of, length_of, with_spectrum
+from .profile import HEIGHTS, band_of, height_of, length_of, spectrum_at, with_spectrum
 
 ROUND_ASPECT = 1.1  # of a highlight, up to which a mounting or the lamp's own shape explains it (ours)
 CONVERTED = ("gloss", "f0", "measurements", "name", "base_color")  # keys whose field holds another form of them
@@ -99,6 +100,15 @@ class Material:
 def read_material(path) -> Material:
     """The material at `path` (`-`: standard input). Raises InputError with every error, a line each."""
     return from_document(read(path, FIELDS, RULES))
+
+
+def read_beside(path) -> list[Path]:
+    """Files whose names or bytes the material at `path` follows from: the spectrum that it names; itself, where its
+    name is the file's. Raises InputError as `read_material` does."""
+    document = read(path, FIELDS, RULES)
+    spectrum = document.values.get("stylus", {}).get("spectrum")
+    found = [] if "name" in document.values else [Path(str(path))]
+    return [*found, spectrum_at(spectrum, document)] if isinstance(spectrum, str) else found
 
 
 def parse_material(text: str, name: str = "<text>") -> Material:

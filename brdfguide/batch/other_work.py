@@ -44,13 +44,19 @@ class AdviceWork:
         return {"work": "recommend", **canonical(self)}
 
     def reads(self, file: Path | Held) -> list[Path]:
-        return [] if exists(file) else [Path(library.path(str(file)))]
+        name = str(file)
+        if exists(file):
+            return material.read_beside(file) if name.endswith((".yaml", ".yml")) else []
+        return [Path(library.path(name))]
 
     def of(self, file: Path | Held) -> MadeAnswer:
         name = str(file)
         if not name.endswith((".yaml", ".yml")) and exists(file):
             raise InputError(f"{name}: is no description; `brdfguide fit` answers for many measurements")
         described = material.read_material(name if exists(file) else library.path(name))
+        if described.measurements:
+            words = "it names a measurement, and of many descriptions none is looked at; give it alone"
+            raise InputError(f"{name}: {words}")
         answer = advisor.recommend(described, self.anyway, list(self.models) if self.models else None)
         if not answer.candidates:
             why = answer.reasons[0].says

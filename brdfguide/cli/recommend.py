@@ -52,11 +52,13 @@ class RecommendRequest:
 def recommend(request: RecommendRequest) -> None:
     """Recommend reflectance models with start values, and say why, how surely and what they cannot do."""
     from ..advice import recommend as advisor
+    from ..opening import is_folder
 
     context, typed = request.context, request.inputs or []
     if not typed and request.many.files_from is None:
         raise InputError("no INPUT: wanted a description, a measurement, a folder, or --files-from LIST")
-    if request.many.is_typed(context) or (len(typed) == 1 and request.many.is_many(typed)):
+    folders = any(map(is_folder, typed))
+    if request.many.is_typed(context) or folders or (len(typed) == 1 and request.many.is_many(typed)):
         raise Exit(_recommend_many(request, typed))
     request.exporting.check(context)
     request.pictures.check(request.context)

@@ -38,6 +38,34 @@ def test_many_descriptions_are_a_row_each_and_one_outside_stops_none(tmp_path):
     assert rows[0]["answered_before"] and rows[0]["recommend"]["candidates"] == alone["candidates"]
 
 
+def test_a_description_is_answered_with_the_spectrum_beside_it_and_by_its_own_name(tmp_path):
+    """The same words in two folders, with two spectra, are two surfaces; without a name they have their files'."""
+    for folder, power in (("a", 1e-4), ("b", 4e-3)):
+        (tmp_path / folder).mkdir()
+        rows = [f"{f},{power / (1 + (20 * f) ** 2) ** 1.5}" for f in (0.001, 0.01, 0.1, 0.5, 1, 2)]
+        (tmp_path / folder / "psd.csv").write_text("\n".join(["f (1/um),S (um^3)", *rows]) + "\n")
+        (tmp_path / folder / "m.yaml").write_text("composition: aluminium\nstylus: {spectrum: psd.csv}\n")
+    (tmp_path / "b" / "n.yaml").write_text((tmp_path / "b" / "m.yaml").read_text())
+    line = f"recommend {tmp_path / 'a'} {tmp_path / 'b'} --no-timing --json"
+    alone = [row["recommend"] for row in json.loads(answered(line)[1])["rows"]]
+    assert alone[0]["candidates"] != alone[1]["candidates"]
+    for before in (False, True):
+        rows = json.loads(answered(f"{line} --out {tmp_path / 'd'}")[1])["rows"]
+        assert [row["recommend"]["candidates"] for row in rows] == [each["candidates"] for each in alone]
+        assert [row["recommend"]["name"] for row in rows] == ["m", "m", "n"]
+        assert [row["answered_before"] for row in rows] == [before] * 3
+    (tmp_path / "a" / "psd.csv").write_text((tmp_path / "b" / "psd.csv").read_text())
+    rows = json.loads(answered(f"{line} --out {tmp_path / 'd'}")[1])["rows"]
+    assert rows[0]["recommend"]["candidates"] == rows[1]["recommend"]["candidates"]
+
+
+def test_a_measurement_that_one_of_many_descriptions_names_is_not_passed_over(tmp_path):
+    some(tmp_path, "scan.csv", 1)
+    (tmp_path / "paint.yaml").write_text("composition: paint\nmeasurements: [scan.csv]\n")
+    status, out, err = answered(f"recommend {tmp_path} --no-timing")
+    assert status == 2 and out.splitlines()[1].endswith("bad input") and "it names a measurement" in err
+
+
 def test_of_a_folder_recommend_takes_the_descriptions(tmp_path):
     (tmp_path / "cup.yaml").write_text("composition: porcelain\nfinish: high gloss\n")
     (tmp_path / "sheet.yml").write_text("composition: copper\nfinish: satin\n")

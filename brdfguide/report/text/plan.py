@@ -12,7 +12,7 @@ def plan_text(result: dict) -> str:
 
 def _head(result: dict) -> str:
     last, first = result["blocks"][-1], result["blocks"][0]
-    count = f"{result['directions']} directions"
+    count = f"{result['directions']} direction{'s' * (result['directions'] != 1)}"
     there = f" beside the {result['measured_before']} that were measured" if result["measured_before"] else ""
     if result["purpose"] == "tell":
         one, other = result["of"]
