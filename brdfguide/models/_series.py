@@ -75,16 +75,24 @@ def peak_of_summand(g, y):
 
 
 def _over_orders(g, y, top, width, derivatives):
-    """The sum over the whole numbers around a narrow peak."""
+    """The sum over the whole numbers around a narrow peak; to the last digit the same whatever else is summed."""
     first, last = _window(top, width)
-    whole = first[:, None] + np.arange(int(np.max(last - first)))
+    orders = np.arange(-(-int(np.max(last - first)) // STEP) * STEP)
+    whole = first[:, None] + orders
     m = whole.astype(float)
     exponent = m * np.log(g)[:, None]
     exponent -= _ln_factorial_m(whole)
     exponent -= y[:, None] / m
-    highest, term, total = _scaled(exponent)
+    exponent = np.where(orders < (last - first)[:, None], exponent, -np.inf)
+    highest, term, _ = _scaled(exponent)
+    total = _sum_in_steps(term)
     value = highest - g + np.log(total)
-    return (value, (term * m).sum(axis=1) / total - g, -(term / m).sum(axis=1) / total) if derivatives else (value,)
+    return (value, _sum_in_steps(term * m) / total - g, -_sum_in_steps(term / m) / total) if derivatives else (value,)
+
+
+def _sum_in_steps(terms):
+    """The sum of each row, whose last digit zeros behind it do not move."""
+    return terms.reshape(len(terms), -1, STEP).sum(axis=1).sum(axis=1)
 
 
 def _window(top, width):

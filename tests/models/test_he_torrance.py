@@ -10,6 +10,7 @@ import pytest
 from brdfguide.models import _series_cells
 from brdfguide.models import he_torrance as he
 from brdfguide.models._series import by_products, by_terms
+from brdfguide.models._series_cells import CELLS, compute_cells
 from brdfguide.models._series_patches import ln_series
 from brdfguide.physics.geometry import Geometry, in_plane
 
@@ -122,6 +123,20 @@ def test_sum_and_its_derivatives_agree_with_40_digits_with_seed_31():
             np.max((np.abs(slow[row] - right[row]) / np.maximum(1.0 if row == 1 else 1e-3, np.abs(right[row])))[~deep])
             < 1e-10
         )
+
+
+def test_sums_and_cells_hang_on_no_others_to_the_last_digit_with_seed_36():
+    """Or a fit would depend on what was fitted before it in its process."""
+    draw = np.random.default_rng(36)
+    g, y = 2.0 ** draw.uniform(-8, 12, 1500), 2.0 ** draw.uniform(-2, 14, 1500)
+    few = [by_terms(*each) for each in zip(np.split(g, 500), np.split(y, 500), strict=True)]
+    np.testing.assert_array_equal(by_terms(g, y), np.concatenate(few, axis=1))
+    ln_series(g, y)
+    known = {code: cell for code, cell in CELLS.items() if cell is not None}
+    for code in sorted(known)[::7]:
+        del CELLS[code]
+        compute_cells([code])
+        np.testing.assert_array_equal(CELLS[code], known[code])
 
 
 def test_products_of_orders_are_the_terms_and_a_cell_hangs_on_no_other_with_seed_33():
