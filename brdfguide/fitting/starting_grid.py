@@ -113,9 +113,9 @@ def amplitudes_by_channel(layout: Layout, measurement: Measurement, starts: Sequ
     columns = np.empty((len(starts), channels, len(terms), samples)).swapaxes(2, 3)
     for place, term in enumerate(terms):
         unit = {} if _is_fixed(layout, term) else {term.model.amplitude: 1.0}
-        for number, start in enumerate(starts):
-            shape = term.model(measurement.geom, **{**layout.model.of_term(term, start), **unit})
-            columns[number, :, :, place] = np.transpose(shape / data)
+        of_starts = [{**layout.model.of_term(term, start), **unit} for start in starts]
+        together = {name: _in_rows([each[name] for each in of_starts], channels) for name in of_starts[0]}
+        columns[:, :, :, place] = term.model(measurement.geom.channels_first, **together) / data.T
     fixed, limits = _fixed_and_limits(layout)
     # where nothing is asked for, the target of 1 must not be missed either
     flat = columns.reshape(-1, samples, len(terms))
@@ -131,6 +131,14 @@ def amplitudes_by_channel(layout: Layout, measurement: Measurement, starts: Sequ
         {**start, **{key: found[:, place].copy() for place, key in keys}}
         for start, found in zip(starts, amplitudes, strict=True)
     ]
+
+
+def _in_rows(values: list, channels: int):
+    """Values of several starts as (starts, channels or 1, 1); a number where all have the same."""
+    if not any(map(np.ndim, values)):
+        each = [float(value) for value in values]
+        return each[0] if len(set(each)) == 1 else np.array(each)[:, None, None]
+    return np.stack([np.broadcast_to(value, (channels,)) for value in values])[:, :, None]
 
 
 @formed

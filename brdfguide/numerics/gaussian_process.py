@@ -77,7 +77,9 @@ class Weighed:
         onward = self.places.onward
         q, j, pull = self.values, self.slopes, self.ratio[:, None] * self.weight
         here = onward_slopes @ self.moved.T + onward @ (pull * (q - self.moved @ j.T)).T
-        loose = onward_slopes - onward @ (pull[:, :, None] * j)
+        count = len(pull)
+        moved = (pull[:, :, None] * j).transpose(1, 0, 2).reshape(len(q), -1)  # all at once: one product of matrices
+        loose = onward_slopes - (onward @ moved).reshape(len(onward), count, -1).transpose(1, 0, 2)
         of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)
         # lᵀ A⁻¹ l by the inverse of A's triangular factor, which has no rows of right hand sides to solve for
         of_slopes = np.square(loose @ np.linalg.inv(np.linalg.cholesky(self.inside)).transpose(0, 2, 1)).sum(axis=2).T
@@ -95,7 +97,8 @@ def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
     # by the other eigenvectors values are noise alone, and count once: of them the sums are enough
     silent = slopes.T @ slopes - j.T @ j, slopes.T @ values - j.T @ q, values @ values - q @ q
     weight = 1 / (1 + RATIOS[:, None] * places.strength)
-    products = (j.T @ (weight[:, :, None] * j)) + silent[0]
+    pairs = (j[:, :, None] * j[:, None, :]).reshape(len(q), -1)
+    products = (weight @ pairs).reshape(-1, *silent[0].shape) + silent[0]
     pull, power = (weight * q) @ j + silent[1], np.maximum(weight @ q**2 + silent[2], 0.0)
     noise = np.maximum(power / count, LEAST_NOISE)
     for _ in range(ROUNDS):
