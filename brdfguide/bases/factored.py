@@ -108,7 +108,8 @@ def fit_factors(
 
 
 class _Problem:
-    """Residuals in ln f, then what bends, then what is large, as `least_squares` wants them."""
+    """Residuals in ln f, then what bends, then what is large, as `least_squares` wants them. Slopes stand in arrays
+    that the next call fills anew."""
 
     def __init__(self, columns: Columns, ln: np.ndarray, weights: np.ndarray | None):
         self.columns, self.known = columns, np.isfinite(ln)
@@ -122,6 +123,10 @@ class _Problem:
         self.shared_cost = share * np.concatenate([BENT * bent, LARGE * np.eye(SHARED)])
         own = np.concatenate([BENT * bsplines.bends(DIFFERENCES), LARGE * np.eye(DIFFERENCES)])
         self.own_cost = np.concatenate([own, np.zeros((len(own), 1))], axis=1)
+        values, costs = len(ln), len(self.shared_cost)
+        tall = ln.shape[1], values + costs + len(self.own_cost)
+        self.by_shared, self.by_own = np.zeros((*tall, SHARED)), np.zeros((*tall, PER_CHANNEL))
+        self.by_shared[:, values : values + costs], self.by_own[:, values + costs :] = self.shared_cost, self.own_cost
 
     def begin(self):
         """The logarithms alone, without a body."""
@@ -159,12 +164,8 @@ class _Problem:
             return residual
         share = (self.root * lobe / f).T[:, :, None]
         of_body = (self.root * body / f).T[:, :, None]
-        flat = np.zeros((channels, len(self.own_cost), SHARED))
-        by_shared = np.concatenate(
-            [share * self.columns.shared, np.broadcast_to(self.shared_cost, (channels, *self.shared_cost.shape)), flat],
-            axis=1,
-        )
-        by_own = np.concatenate([share * self.columns.difference, of_body], axis=2)
-        none = np.zeros((channels, len(self.shared_cost), PER_CHANNEL))
-        own_cost = np.broadcast_to(self.own_cost, (channels, *self.own_cost.shape))
-        return residual, by_shared, np.concatenate([by_own, none, own_cost], axis=1)
+        values = slice(len(self.ln))
+        np.multiply(share, self.columns.shared, out=self.by_shared[:, values])
+        np.multiply(share, self.columns.difference, out=self.by_own[:, values, :-1])
+        self.by_own[:, values, -1:] = of_body
+        return residual, self.by_shared, self.by_own

@@ -10,7 +10,7 @@ against each other, and against none, by their likelihoods.
 Source: the score test, Rao 1948, "Large sample tests of statistical hypotheses"; the kinds and bounds are ours.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -162,27 +162,32 @@ def _tangents(surface: Surface, few: Measurement, model: np.ndarray) -> np.ndarr
 def _shapes(surface: Surface, few: Measurement, model: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
     """(kind, t) of every term that may be missing, in several widths."""
 
-    def of(expression: str, **values) -> np.ndarray:
-        alone = Surface(*_term(expression, *values.items()), few.channels, few.geom.wavelength)
-        return reading(alone, few.instrument)[:, 0] / model
+    def of(expression: str, name: str, sizes: Sequence[float]) -> Iterator[np.ndarray]:
+        """In each size; of all in one call, as if each were a channel."""
+        law, values = _term(expression)
+        if sizes:
+            several, (key,) = np.array(sizes), law.qualified({name: sizes[0]})
+            waves = np.repeat(few.geom.wavelength, len(sizes))
+            alone = Surface(law, {**values, key: several}, tuple(map(str, sizes)), waves)
+            yield from (reading(alone, few.instrument) / model[:, None]).T
 
     has = {term.model.name for term in surface.model.terms}
     width = _width(surface.model, surface)
-    for alpha in WIDTHS:
-        if "retro" not in has:
-            yield "retro", of("retro", alpha=alpha)
-        if "flakes" not in has:
-            yield "flakes", of("coated:flakes", tilt=alpha)
-        if width is not None and alpha < NARROWER * width:
-            yield "second lobe", of("ggx", alpha=alpha)
-        if width is not None and alpha > WIDER * width:
-            yield "haze", of("ggx", alpha=alpha)
-    if "sheen" not in has:
-        for spread in SPREADS:
-            yield "sheen", of("sheen", spread=spread)
+    narrower = [] if width is None else [alpha for alpha in WIDTHS if alpha < NARROWER * width]
+    wider = [] if width is None else [alpha for alpha in WIDTHS if alpha > WIDER * width]
+    kinds = (
+        ("retro", "retro", "alpha", () if "retro" in has else WIDTHS),
+        ("flakes", "coated:flakes", "tilt", () if "flakes" in has else WIDTHS),
+        ("second lobe", "ggx", "alpha", narrower),
+        ("haze", "ggx", "alpha", wider),
+        ("sheen", "sheen", "spread", () if "sheen" in has else SPREADS),
+    )
+    for kind, expression, name, sizes in kinds:
+        for shape in of(expression, name, sizes):
+            yield kind, shape
     if any(term.model.is_body for term in surface.model.terms):
-        coated = of("coated:lambertian", albedo=0.5)
-        yield "coat", coated - of("lambertian", albedo=0.5)
+        (coated,), (bare,) = of("coated:lambertian", "albedo", [0.5]), of("lambertian", "albedo", [0.5])
+        yield "coat", coated - bare
     if width is not None and np.ptp(few.geom.phi_i_deg) >= TURNED_DEG:
         bodies = [surface.alone(term) for term in surface.model.terms if term.model.is_body]
         lobes = 1 - sum((reading(each, few.instrument)[:, 0] for each in bodies), np.zeros(len(model))) / model
@@ -190,11 +195,11 @@ def _shapes(surface: Surface, few: Measurement, model: np.ndarray) -> Iterator[t
             yield "second axis", shape * lobes
 
 
-@lru_cache(maxsize=64)  # of one file they are those of the next
-def _term(expression: str, *values: tuple[str, float]) -> tuple[Composite, dict]:
-    """A law with these values and its own for the others."""
+@lru_cache(maxsize=8)  # of one file they are those of the next
+def _term(expression: str) -> tuple[Composite, dict]:
+    """A law with its own values."""
     sum_of = models.get(expression)
-    return sum_of, {**sum_of.defaults(), **sum_of.qualified(dict(values))}
+    return sum_of, sum_of.defaults()
 
 
 def _width(model: Composite, surface: Surface) -> float | None:
