@@ -5,7 +5,6 @@ anew from the angles [deg], as the pages on errors say it.
 """
 
 from collections import Counter, defaultdict
-from dataclasses import replace
 from functools import cached_property
 from statistics import median
 
@@ -22,9 +21,6 @@ HELD_DEG = 1.0  # how far an incidence wanders that was held
 MOST_SCANS = 64  # with more incidences the order alone cuts blocks
 TILTED_DEG, MOST_TURNS = 1.0, 64  # incidence at which light has an azimuth; more of these are no turns of the sample
 PIECES = 8  # blocks of one incidence
-GAIN = "ln_gain_"  # and the incidence [deg]
-NORMAL_DEG = 1e-7  # up to which a direction is the normal
-FARTHEST_DEG = 89.9  # where the arm stands at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,43 +142,6 @@ def _held(angles: list[float]) -> list[int]:
         whole = sorted({round(angle) for angle in angles})
         return [whole.index(round(angle)) for angle in angles]
     return numbers
-
-
-def undrifted(data: Readings, found: dict) -> Readings:
-    """The values without the gains of their scans, the directions with the arm's zero, as a flag `instrument` tells."""
-    gains, at_plane = _gains(found), all(_off_plane_deg(each) < 0.1 for each in data.angles)
-    angles, values = [], []
-    for (theta_i, phi_i, theta_r, phi_r), signed, row in zip(
-        data.angles, data.signed_theta_r, data.values, strict=True
-    ):
-        before = signed if at_plane else theta_r
-        after = min(max(before + found["zero_deg"], -FARTHEST_DEG), FARTHEST_DEG)
-        turn = 180.0 if (after < 0) != (before < 0) else 0.0
-        angles.append((theta_i, phi_i, abs(after), phi_r + turn))
-        gain = gains[min(gains, key=lambda theta: abs(theta - theta_i))]
-        values.append(tuple(float(mpf(value) / exp(mpf(gain))) for value in row))
-    return replace(data, angles=tuple(angles), values=tuple(values), beyond=())
-
-
-def _gains(found: dict) -> dict[float, float]:
-    """ln of each scan's gain by its incidence [deg]."""
-    return {
-        float(name.removeprefix(GAIN)): gain for name, gain in found.items() if name.removeprefix(GAIN)[0].isdigit()
-    }
-
-
-def spread_of_gains(found: dict):
-    """rms of ln about their mean."""
-    gains = list(map(mpf, _gains(found).values()))
-    mean = fsum(gains) / len(gains)
-    return sqrt(fsum((each - mean) ** 2 for each in gains) / len(gains))
-
-
-def _off_plane_deg(angles: tuple[float, float, float, float]) -> float:
-    """Azimuth away from the plane of incidence; 0 at the normal, which lies in every plane."""
-    theta_i, phi_i, theta_r, phi_r = angles
-    off = (phi_r - phi_i) % 180
-    return min(off, 180 - off) if min(theta_i, theta_r) > NORMAL_DEG else 0.0
 
 
 def exact_residuals(surface: ExactSurface, data: Readings) -> list[list]:

@@ -18,6 +18,7 @@ from ..records import dataclass
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
 from .exact_held_out import compare_held_out
+from .exact_instrument import spread_of_gains, undrifted
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
 from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
 from .rederived import Comparisons, Rederived
@@ -180,7 +181,7 @@ class _Row:
         self.row, self.place, self.grey, self.metric = row, place, grey, metric
         self.surface = surface_of(row["model"], row["parameters"])
         drift = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
-        left = data if drift is None else exact_errors.undrifted(data, drift)
+        left = data if drift is None else undrifted(data, drift)
         self.data = data if drift is None else replace(data, taken=left.told)
         self.residuals = exact_errors.exact_residuals(self.surface, left)
         self.rms = exact_errors.exact_rms(self.residuals, data.share)
@@ -217,7 +218,7 @@ class _Row:
             if flag["code"] == "discrepancy":
                 self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)
             if flag["code"] == "instrument":
-                spread = exact_errors.spread_of_gains(flag["numbers"])
+                spread = spread_of_gains(flag["numbers"])
                 found.check(f"{place}.flags.instrument.gains_rms", flag["numbers"]["gains_rms"], spread)
 
     def _discrepancy(self, told: dict, place: str, found: Comparisons) -> None:

@@ -9,14 +9,16 @@ import pytest
 
 pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not installed")
 
+from mpmath import mpf, workdps
+
 from brdfguide import models
-from brdfguide.audit import exact_intervals, exact_surface, verification
+from brdfguide.audit import exact_errors, exact_intervals, exact_surface, verification
 from brdfguide.data import examine
 from brdfguide.data.measurement import Measurement
 from brdfguide.data.scans import arm_turned
 from brdfguide.face.functions import fit
 from brdfguide.fitting.diagnostics import standard_errors
-from brdfguide.physics.geometry import rows
+from brdfguide.physics.geometry import Geometry, rows
 
 from .. import synthetic
 from ..data.test_noise_model import dim_run
@@ -210,3 +212,43 @@ def test_faults_that_were_counted_as_doubt_leave_standard_errors_alone():
     measurement, document = answered(made())
     data = replace(verification.readings_of(measurement, document), faults=True)
     assert not stderrs(verification.verify(document, data))
+
+
+@pytest.mark.parametrize("phi", [90.0, -90.0, 270.0, 450.0])
+def test_directions_at_right_angles_to_the_plane_are_in_one_order(phi):
+    theta_i, theta_r = (each.ravel() for each in np.meshgrid([10.0, 35.0, 70.0], np.arange(0.0, 80.0, 5.0)))
+    for light in (0.0, 180.0, 33.3):
+        geom = rows(Geometry.from_degrees(theta_i, light, theta_r, light + phi))
+        assert np.all(geom.signed_theta_r_deg >= 0)
+        angles = tuple((i, light, r, light + phi) for i, r in zip(theta_i.tolist(), theta_r.tolist(), strict=True))
+        data = exact_errors.Readings(angles, ((1.0,),) * len(angles), (0.0,), (0.55,))
+        assert data.signed_theta_r == geom.signed_theta_r_deg[:, 0].tolist()
+
+
+@pytest.mark.parametrize("turns", [[0.0], [0.0, 90.0, 45.0], [10.0, 190.0, 100.0]])
+@pytest.mark.parametrize("incidences", [[30.0], [0.0, 20.0, 50.0]])
+def test_neighbours_of_a_turned_samples_scans_are_those_of_the_fit(turns, incidences):
+    turn, theta_i, theta_r = (each.ravel() for each in np.meshgrid(turns, incidences, np.arange(-80.0, 81.0, 4.0)))
+    phi_r = turn + np.where(theta_r < 0, 0.0, 180.0)
+    measurement = Measurement(
+        rows(Geometry.from_degrees(theta_i, turn, np.abs(theta_r), phi_r)), np.ones((len(turn), 1))
+    )
+    angles = tuple(zip(theta_i.tolist(), turn.tolist(), np.abs(theta_r).tolist(), phi_r.tolist(), strict=True))
+    data = exact_errors.Readings(angles, ((1.0,),) * len(turn), (0.0,), (0.55,))
+    wanted = standard_errors.blocks_of(measurement, standard_errors.along_scans(measurement))
+    together = np.array(exact_errors.neighbours_of_scans(data))
+    assert len(set(zip(together.tolist(), wanted.tolist(), strict=True))) == len(set(wanted.tolist()))
+    assert len(set(together.tolist())) == len(set(wanted.tolist()))
+
+
+def test_slopes_that_are_parallel_but_for_rounding_have_no_inverse():
+    parallel = exact_intervals._Equations(row=None, part=None)
+    with workdps(30):
+        one = {(row, 0): mpf(row + 1) / 7 for row in range(6)}
+        for over in range(3, 40):  # rounded another way each time; the inverse is of either sign
+            other = {at: value * 1000 / over for at, value in one.items()}
+            even = {at: mpf(1) / over for at in one}
+            vars(parallel)["columns"] = [one, other, even]
+            vars(parallel).pop("inverse", None)
+            found = parallel.inverse
+            assert found is None or found[1] > mpf(10) ** 20
