@@ -227,7 +227,10 @@ def dark_edges(measurement: Measurement) -> np.ndarray:
     for rows, angle in _scans(measurement.geom):
         keep = np.isfinite(level[rows]) & (np.abs(angle) >= EDGE_DEG - 8)
         for side in (angle > 0, angle < 0):
-            outward = rows[keep & side][np.argsort(np.abs(angle[keep & side]))]
+            there = keep & side
+            if np.count_nonzero(there) < 2:
+                continue
+            outward = rows[there][np.argsort(np.abs(angle[there]))]
             steps = np.diff(level[outward]), np.abs(np.diff(measurement.geom.theta_r_deg[outward, 0]))
             slope = np.divide(*steps, out=np.zeros_like(steps[0]), where=steps[1] > 0)
             before = np.r_[-np.inf, slope[:-1]]  # a lobe that dies out falls fast as well, but no faster than it did

@@ -19,6 +19,7 @@ import numpy as np
 from ..data.measurement import Measurement
 from ..numerics.gaussian_process import Foretold, Places, Weighed, weighed
 from ..physics.aperture import Instrument
+from ..physics.directions import Directions
 from ..physics.geometry import Geometry
 from ..records import dataclass
 from . import starting_grid
@@ -156,6 +157,13 @@ def places_of_missed(geom: Geometry) -> np.ndarray:
     return np.concatenate(columns, axis=1) / np.array(WIDTHS)
 
 
+def _places_once(to: Directions) -> tuple[np.ndarray, np.ndarray]:
+    """Places without those that are alike, as exchanged directions' are, and which of them each direction has."""
+    places = places_of_missed(Geometry(to))
+    _, first, which = np.unique(np.round(places, 9), axis=0, return_index=True, return_inverse=True)
+    return places[first], which.reshape(-1)
+
+
 def _laws(ranking: Ranking) -> list[Row]:
     """The recommended one, those that tie with the best, and those with least error."""
     best = ranking.recommended
@@ -205,7 +213,7 @@ class _Known:
         part = part if clear.all() else part[clear]
         geom = part.of_channels(channels).geom
         there = Instrument(there.geom.at(geom.wavelength), there.solid_angle)
-        places = Places.between(places_of_missed(geom), places_of_missed(there.geom))
+        places = Places.between(places_of_missed(geom), *there.geom.formed(_places_once))
         return cls(part, channels, Instrument(geom, part.solid_angle), there, places, [each[clear] for each in left])
 
     def weighs(self, place: int, fit: Fit) -> tuple[Weighed, ...]:

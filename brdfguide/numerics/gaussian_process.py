@@ -23,11 +23,13 @@ COUNTS = 0.01  # probability of an s/n below which it is left out
 @dataclass(frozen=True, eq=False)
 class Places:
     """The kernel's R eigenvalues (R,) and eigenvectors (N, R) between the places with values that say something,
-    smallest first, and that from M others to them, by these eigenvectors (M, R)."""
+    smallest first, and that from others to them, by these eigenvectors (M', R); and which of these rows each of M
+    others has, since many may stand at one place."""
 
     strength: np.ndarray
     vectors: np.ndarray
     onward: np.ndarray
+    which: np.ndarray  # (M,)
 
     @cached_property
     def onward_squares(self) -> np.ndarray:
@@ -39,12 +41,14 @@ class Places:
         return -np.log1p(RATIOS[:, None] * self.strength).sum(axis=1)
 
     @classmethod
-    def between(cls, known: np.ndarray, others: np.ndarray) -> "Places":
-        """Of places as points (N, d) and (M, d) of which the kernel is exp(-distance²/2)."""
+    def between(cls, known: np.ndarray, others: np.ndarray, which: np.ndarray | None = None) -> "Places":
+        """Of places as points (N, d) and (M', d) of which the kernel is exp(-distance²/2); `which` (M,) of the latter
+        each other is, None: each is one."""
+        which = np.arange(len(others)) if which is None else which
         strength, vectors = np.linalg.eigh(gaussian_kernel(known, known))
         first = int(np.searchsorted(strength, SILENT * strength[-1])) if len(strength) else 0
         vectors = vectors[:, first:]
-        return cls(np.maximum(strength[first:], 0.0), vectors, gaussian_kernel(others, known) @ vectors)
+        return cls(np.maximum(strength[first:], 0.0), vectors, gaussian_kernel(others, known) @ vectors, which)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,13 +78,13 @@ class Weighed:
 
     def elsewhere(self, onward_slopes: np.ndarray) -> Foretold:
         """Takes  slopes J (M, p) elsewhere."""
-        onward = self.places.onward
+        onward, which = self.places.onward, self.places.which
         q, j, pull = self.values, self.slopes, self.ratio[:, None] * self.weight
-        here = onward_slopes @ self.moved.T + onward @ (pull * (q - self.moved @ j.T)).T
+        here = onward_slopes @ self.moved.T + (onward @ (pull * (q - self.moved @ j.T)).T)[which]
         count = len(pull)
         moved = (pull[:, :, None] * j).transpose(1, 0, 2).reshape(len(q), -1)  # all at once: one product of matrices
-        loose = onward_slopes - (onward @ moved).reshape(len(onward), count, -1).transpose(1, 0, 2)
-        of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)
+        loose = onward_slopes - (onward @ moved).reshape(len(onward), count, -1)[which].transpose(1, 0, 2)
+        of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)[which]
         # lᵀ A⁻¹ l by the inverse of A's triangular factor, which has no rows of right hand sides to solve for
         of_slopes = np.square(loose @ np.linalg.inv(np.linalg.cholesky(self.inside)).transpose(0, 2, 1)).sum(axis=2).T
         mean = here @ self.probable
