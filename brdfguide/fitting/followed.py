@@ -126,9 +126,16 @@ def follow(followings: Sequence[Following], tolerance: float, most: int, foresee
 def _ends(layout: Layout, ends: Ends, foreseen: bool) -> list[End]:
     p, shape = len(layout.shared), (layout.channels, len(layout.per_channel))
     found = zip(ends.at, ends.cost.tolist(), ends.evaluations.tolist(), ends.converged.tolist(), strict=True)
-    equations = [None] * len(ends.at) if foreseen else list(zip(ends.slope, ends.normal, strict=True))
     return [
-        End(row[:p], row[p:].reshape(shape), *rest, there) for (row, *rest), there in zip(found, equations, strict=True)
+        End(
+            row[:p],
+            row[p:].reshape(shape),
+            cost,
+            evaluations,
+            converged,
+            None if foreseen else (ends.slope[place], ends.normal[place]),
+        )
+        for place, (row, cost, evaluations, converged) in enumerate(found)
     ]
 
 

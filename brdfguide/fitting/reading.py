@@ -7,6 +7,7 @@ The only place that says it, so that fits, residuals, curves and reports cannot 
 
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from typing import TypeGuard
 
 import numpy as np
 
@@ -211,7 +212,7 @@ def _of_laws(layout: Layout, values: Mapping, geom: Geometry) -> dict[int, tuple
     return found
 
 
-def _of_many(value) -> bool:
+def _of_many(value) -> TypeGuard[np.ndarray]:
     """Whether a value is that of many surfaces, (surfaces, ., .)."""
     return isinstance(value, np.ndarray) and value.ndim == 3
 
