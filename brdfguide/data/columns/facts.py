@@ -28,6 +28,7 @@ TIMES = frozenset(["*", "x", "times", "by"])
 OF_VALUES = frozenset(["value", "doubt", "filler", "proportional", "expanded"])
 ARGUMENTS = frozenset(["polar", "azimuth", "light", "detector", "wavelength"])
 LONGEST_PHRASE = max(len(phrase) for phrase in QUANTITY_OF)
+FIRST_OF_QUANTITY = frozenset(phrase[0] for phrase in QUANTITY_OF)
 POWERS_OF_TEN = (["10", "^", "-", "n"], ["10", "-", "n"], ["10", "^", "n"])  # and 1e-3, which is one token
 
 
@@ -252,8 +253,9 @@ class _Name:
     def _words_before(self, place: int, wanted: set[str]) -> int:
         """Where the words of these senses begin that stand before a number, or the sign between; `place` if none do."""
         sign = place - 1 if self.text(place - 1) in SAYS_IT_IS else place
-        first, depth, quantity = sign, self.left[place].depth, self._places_of_quantity()
-        while first and self.senses(first - 1) & (wanted | {"filler"}) and first - 1 not in quantity:
+        first, depth, known = sign, self.left[place].depth, wanted | {"filler"}
+        quantity = self._places_of_quantity() if first and self.senses(first - 1) & known else range(0)
+        while first and self.senses(first - 1) & known and first - 1 not in quantity:
             if self.left[first - 1].depth > depth:
                 break
             first -= 1
@@ -347,9 +349,11 @@ class _Name:
 
     def _places_of_quantity(self) -> range:
         """Where the longest phrase stands that names a quantity."""
+        words = self.texts(0, len(self.left))
+        begins = [place for place, word in enumerate(words) if word in FIRST_OF_QUANTITY]
         for length in range(LONGEST_PHRASE, 0, -1):
-            for place in range(len(self.left) - length + 1):
-                if tuple(self.texts(place, place + length)) in QUANTITY_OF:
+            for place in begins:
+                if tuple(words[place : place + length]) in QUANTITY_OF and place + length <= len(words):
                     return range(place, place + length)
         return range(0)
 

@@ -208,6 +208,10 @@ SLOW = {  # texts that took from seconds to for ever
     "quotes": '"' * 100_000 + ROWS,
     "a long name": ROWS.replace("brdf", "brdf " + "very " * 20_000, 1),
     "signs": "# " + "-" * 200_000 + "\n" + ROWS,
+    "twenty names of five hundred numbers": "theta_i,theta_r,brdf,"
+    + ",".join(f"c{k}" + "-9" * 500 for k in range(20))
+    + "\n"
+    + "".join(f"10,{r},0.2{',1' * 20}\n" for r in range(20)),
     "four thousand columns": "theta_i,theta_r,brdf,"
     + ",".join(f"c{k}" for k in range(4000))
     + "\n"
