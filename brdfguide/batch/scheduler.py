@@ -5,6 +5,7 @@ again, since `do` looks whether it is.
 """
 
 import logging
+import time
 from collections.abc import Callable, Generator, Iterator
 from itertools import islice
 from typing import Any
@@ -16,6 +17,9 @@ from .keys import engine
 from .workers import Died, Done
 
 WAITED_S = 10.0  # for the scheduler
+WORKERLESS_S = 600.0  # for a worker, which may wait in a queue of its own
+LOOK_S = 5.0  # between two looks whether there is one
+POLL_S = 0.02
 AHEAD = 3  # parts handed out for each of the cluster's threads
 MOST = 4  # tasks of a part: to hand one over and back takes some 5 ms of processor time
 EXTRA = "--scheduler needs dask.distributed: pip install 'brdfguide[farm]'"
@@ -54,7 +58,7 @@ def by_scheduler(
                     numbers[future] = list(part)
                     running.add(future)
             if numbers:
-                future = next(running)
+                future = _next(running, client, address)
                 yield from _results(future, numbers.pop(future), address)
     except (OSError, TimeoutError) as error:
         raise _lost(address, str(error)) from None
@@ -77,6 +81,19 @@ def _connected(address: str):
         raise InputError(f"--scheduler {address}: {error}; wanted an address such as tcp://127.0.0.1:8786") from None
     except (OSError, TimeoutError):
         raise EngineLost(f"--scheduler {address}: nobody answers there within {WAITED_S:g} seconds") from None
+
+
+def _next(running, client, address: str):
+    """The part that ends next. Raises EngineLost where there is no worker for WORKERLESS_S."""
+    seen = looked = time.monotonic()
+    while not running.has_ready():
+        time.sleep(POLL_S)
+        if time.monotonic() - looked > LOOK_S:
+            looked = time.monotonic()
+            seen = looked if client.nthreads() else seen
+            if looked - seen > WORKERLESS_S:
+                raise _lost(address, f"it has had no worker for {WORKERLESS_S:g} seconds")
+    return next(running)
 
 
 def _results(future, numbers: list[int], address: str) -> Iterator[tuple[int, Any]]:

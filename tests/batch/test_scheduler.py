@@ -125,6 +125,23 @@ def test_what_would_be_answered_by_another_program_is_not(cluster, own_process, 
         list(by_scheduler(far_tasks.double, iter([(0, 1)]), cluster[0]))
 
 
+WITHOUT_WORKERS = CLUSTER.replace("n_workers=2", "n_workers=0")
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_cluster_without_a_worker_is_not_waited_for_for_ever(tmp_path, monkeypatch):
+    (tmp_path / "cluster.py").write_text(WITHOUT_WORKERS)
+    command = [sys.executable, str(tmp_path / "cluster.py")]
+    run = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    monkeypatch.setattr("brdfguide.batch.scheduler.WORKERLESS_S", 0.2)
+    monkeypatch.setattr("brdfguide.batch.scheduler.LOOK_S", 0.1)
+    with pytest.raises(EngineLost, match="it has had no worker for 0.2 seconds"):
+        list(by_scheduler(far_tasks.double, iter([(0, 1)]), run.stdout.readline().strip()))
+    run.stdin.close()
+    run.wait(timeout=patience.AN_AGE_S)
+    run.stdout.close()
+
+
 def test_relative_names_are_of_where_the_command_was_given(tmp_path, own_process):
     here = os.getcwd()
     for folder, wanted in ((str(tmp_path), str(tmp_path)), (str(tmp_path / "none"), os.path.abspath(os.sep))):
