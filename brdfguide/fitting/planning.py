@@ -8,8 +8,9 @@ is then larger than that of a fit to all of them by
 with J̃ the derivatives of ln f by the law's parameters, orthonormal under the measure w of all directions, and δ what
 the law misses: smooth in the tilt of the half vector, the angle from it to the light and toward grazing, and by
 another part that changes within degrees. E is formed over every such δ at once as a kernel, and small where the
-directions stand for w in every J̃ δ (`numerics.herding`). Nothing of it is fitted to any table; the widths of the
-kernel are ours.
+directions stand for w in every J̃ δ (`numerics.herding`). How quickly δ changes is not known before it was measured: the
+kernel is the mean over lengths from half to twice the middle ones. Nothing of it is fitted to any table; the widths of
+the kernel are ours.
 """
 
 from collections.abc import Iterable
@@ -30,17 +31,18 @@ from .cross_validation import thinned
 from .goniometer import Goniometer
 from .hypotheses import Hypothesis
 from .ln_slopes import ln_with_slopes
+from .lobe_bands import MIRROR_DEG, lobe_bands, lobe_rows, tilts_deg
 from .next_measurement import difference_at, knowledge, reachable
 from .ranked import Ranking
 
 TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes with the tilt, beyond with its logarithm
 WIDTHS = (1.2, 50.0, 50.0)  # of the kernel: asinh(tan tilt/TILT), angle from light to half vector, to grazing [deg]
+LENGTHS = (0.5, 1.0, 2.0)  # times these widths, which are alike probable (ours)
 ROUGH = 1.0  # variance of what changes within degrees over that of what does not
 ROUGH_DEG = 5.0  # within so many
 SQUARES = 0.5  # how much it counts that the derivatives' own products are right
 LEAST = 1e-6  # of the largest strength, of a combination of parameters
 APART_DEG = 3.0  # between two directions of a plan
-MIRROR_DEG = 0.1  # tilt of the half vector within which of the least that is offered a direction is the mirror's
 SEES_MIRROR = 16  # directions from which one is the mirror's, unless a file offers them: narrow lobes are seen there
 BLOCK = 8  # directions after which one may stop, and plan again
 MOST_OFFERED = 1500  # directions to choose from
@@ -125,7 +127,8 @@ class Everywhere:
         tilt = np.arcsinh(np.sqrt(geom.tan2_h) / TILT)
         place = np.concatenate([tilt, difference, grazing], axis=1) / np.array(WIDTHS)
         near = _vectors(geom) / np.radians(ROUGH_DEG)
-        return gaussian_kernel(place, place) + ROUGH * gaussian_kernel(near, near)
+        smooth = sum(gaussian_kernel(place / each, place / each) for each in LENGTHS) / len(LENGTHS)
+        return smooth + ROUGH * gaussian_kernel(near, near)
 
     def groups(self, numbers: list[np.ndarray], squares: bool) -> Groups:
         """Groups of its directions, by what their union would miss."""
@@ -175,10 +178,20 @@ def plan_everywhere(
     allowed = np.arange(len(numbers)) < len(choice)
     near = _too_near(everywhere.geom, numbers)
     one_of = None if scans or among is not None else _mirror(everywhere.geom, numbers, allowed, budget)
-    picked = representatives(everywhere.groups(numbers, squares=True), budget, allowed, near, there, one_of)
+    groups = everywhere.groups(numbers, squares=True)
+
+    def pick(count: int, free) -> list[int]:
+        return representatives(groups, count, free, near, there, one_of)
+
+    if among is None or scans:
+        picked, beside = pick(budget, allowed), list[int]()
+    else:
+        picked, beside = _with_lobe(everywhere.geom, numbers, allowed, budget, pick)
+    picked = [*picked, *beside]
     told = everywhere.groups(numbers, squares=False)
 
     def expected(some: list[int]) -> float | None:
+        some = [each for each in some if each not in beside]
         return float(np.sqrt(1 + max(told.distance(some), 0.0) / (1 + ROUGH))) if some else None
 
     blocks = []
@@ -204,10 +217,27 @@ def _choice(geom, reach: Goniometer, starts, scans: bool, among: bool, count: in
     return [np.array([row]) for row in rows[once] if reach.reaches(geom[[row]])[0]]
 
 
+def _with_lobe(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int, pick) -> tuple[list[int], list[int]]:
+    """Groups of single directions that `pick` (how many, of which) takes, and those that it would not, from which a
+    narrow lobe is seen: no mean over all directions is to be made right by them."""
+    single = np.flatnonzero(allowed)
+    rows = np.array([numbers[each][0] for each in single])
+    measured = [each for each, free in zip(numbers, allowed, strict=True) if not free]
+    wanted = lobe_bands(geom[rows], budget + sum(map(len, measured)))
+    beside: list[int] = []
+    while True:
+        picked = pick(budget - len(beside), allowed & ~np.isin(np.arange(len(allowed)), beside))
+        seen = geom[np.concatenate([*measured, *(numbers[each] for each in (*picked, *beside))])]
+        missing = [int(single[each.best]) for each in wanted if not each.holds(seen)]
+        if not missing:
+            return picked, beside
+        beside += missing
+
+
 def _mirror(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int) -> np.ndarray | None:
     """(groups,): those allowed that are nearest to the mirror direction; None where none of these is needed, for few
     directions or beside one that is measured."""
-    tilt = np.degrees(np.arctan(np.sqrt(geom.tan2_h)))[:, 0]
+    tilt = tilts_deg(geom)
     least = np.array([tilt[rows].min() for rows in numbers])
     highest = least[allowed].min() + MIRROR_DEG
     count = budget + sum(len(rows) for rows, free in zip(numbers, allowed, strict=True) if not free)
@@ -301,8 +331,10 @@ def _in_blocks(purpose, subject, geom, picked, gains, measurement, reach: Goniom
 
 
 def some_directions(measurement: Measurement) -> Geometry:
-    """The directions of a measurement; of a large table those that stand for all."""
+    """The directions of a measurement; of a large table those that stand for all, and the few of its highlight that a
+    plan takes."""
     part = subsample.representative_rows(measurement, MOST_OFFERED)
+    part = np.union1d(part, np.array(lobe_rows(measurement.geom), int))
     geom = measurement.geom[part]
     return geom.at(np.atleast_1d(geom.wavelength)[:1])
 
