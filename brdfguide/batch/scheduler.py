@@ -5,6 +5,7 @@ again, since `do` looks whether it is.
 """
 
 import logging
+import threading
 import time
 from collections.abc import Callable, Generator, Iterator
 from itertools import islice
@@ -75,12 +76,23 @@ def _connected(address: str):
     logging.getLogger("distributed.client").setLevel(
         logging.CRITICAL
     )  # its traceback of a lost scheduler is our sentence
-    try:
-        return Client(address, timeout=WAITED_S, set_as_default=False), as_completed
-    except ValueError as error:
-        raise InputError(f"--scheduler {address}: {error}; wanted an address such as tcp://127.0.0.1:8786") from None
-    except (OSError, TimeoutError):
-        raise EngineLost(f"--scheduler {address}: nobody answers there within {WAITED_S:g} seconds") from None
+    made: list = []
+
+    def connect() -> None:
+        try:
+            made.append(Client(address, timeout=WAITED_S, set_as_default=False))
+        except Exception as error:
+            made.append(error)
+
+    connecting = threading.Thread(target=connect, daemon=True)
+    connecting.start()
+    connecting.join(WAITED_S + 2)  # what is no scheduler may take a greeting and never answer it
+    if not made or isinstance(made[0], (OSError, TimeoutError)):
+        raise EngineLost(f"--scheduler {address}: no scheduler answers there within {WAITED_S:g} seconds")
+    if isinstance(made[0], Exception):
+        words = f"{printable.line(made[0])}; wanted an address such as tcp://127.0.0.1:8786"
+        raise InputError(f"--scheduler {address}: {words}")
+    return made[0], as_completed
 
 
 def _next(running, client, address: str):

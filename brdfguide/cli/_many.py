@@ -76,7 +76,7 @@ class Many:
 
     def is_many(self, words: list[str]) -> bool:
         """Whether there is a row for each, rather than one answer told in full."""
-        return bool(self.out or self.shard or self.scheduler) or self.is_several(words)
+        return bool(self.out or self.shard) or self.scheduler is not None or self.is_several(words)
 
     def is_several(self, words: list[str]) -> bool:
         """Whether there may be more than one: a list, several names, a folder or a pattern."""
@@ -136,6 +136,8 @@ class Many:
         """Raises InputError for numbers and combinations that mean nothing."""
         if self.jobs < 1:
             raise InputError(f"--jobs {self.jobs}: wanted at least 1")
+        if self.scheduler is not None and not self.scheduler:
+            raise InputError("--scheduler: found nothing; wanted an address such as tcp://127.0.0.1:8786")
         if self.scheduler:
             because = "with --scheduler the cluster's own settings say so"
             refuse(context, "jobs", "timeout", "memory", "retries", because=because)

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -29,6 +30,9 @@ if __name__ == "__main__":
         print(cluster.scheduler_address, *(nanny.process.pid for nanny in cluster.workers.values()), flush=True)
         sys.stdin.read()
 """
+
+
+MAIN = "from brdfguide.cli import main; main()"
 
 
 @pytest.fixture(scope="module")
@@ -89,10 +93,28 @@ def test_a_mistake_over_there_is_a_result(cluster):
 @pytest.mark.filterwarnings("default")
 def test_nobody_there_and_no_address_are_sentences(monkeypatch):
     monkeypatch.setattr("brdfguide.batch.scheduler.WAITED_S", 0.5)
-    with pytest.raises(EngineLost, match="tcp://127.0.0.1:9: nobody answers"):
+    with pytest.raises(EngineLost, match="tcp://127.0.0.1:9: no scheduler answers"):
         list(by_scheduler(far_tasks.double, iter([(0, 1)]), "tcp://127.0.0.1:9"))
     with pytest.raises(InputError, match="wanted an address such as"):
         list(by_scheduler(far_tasks.double, iter([(0, 1)]), "nonsense://x"))
+    with pytest.raises(InputError, match="TLS expects .* wanted an address such as"):
+        list(by_scheduler(far_tasks.double, iter([(0, 1)]), "tls://127.0.0.1:9"))
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_port_where_something_else_listens_is_a_sentence():
+    with socket.create_server(("127.0.0.1", 0)) as other:  # takes a greeting and never answers it
+        address = f"tcp://127.0.0.1:{other.getsockname()[1]}"
+        words = ["fit", "examples/white_paper.csv", "-m", "lambertian", "--scheduler", address]
+        run = [sys.executable, "-c", f"import brdfguide.batch.scheduler as s; s.WAITED_S = 0.5; {MAIN}", *words]
+        done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, timeout=patience.AN_AGE_S)
+    assert done.returncode == 3 and f"{address}: no scheduler answers there" in done.stderr, done.stderr
+
+
+def test_an_empty_address_is_not_passed_over():
+    words = ["fit", "examples/white_paper.csv", "-m", "lambertian", "--scheduler", ""]
+    done = subprocess.run([sys.executable, "-m", "brdfguide", *words], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 2 and "--scheduler: found nothing" in done.stderr
 
 
 @pytest.fixture
