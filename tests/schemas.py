@@ -33,6 +33,7 @@ COMMANDS = (
     "fit nowhere.csv also-nowhere.csv -m lambertian --json",
     "recommend porcelain --json",
     "recommend chrome --json",
+    f"recommend {PLASTIC} --json -m lambertian+ggx",
     "recommend gold-leaf blue-car-paint velvet wet-stone --json --no-timing --explain",
     f"recommend office-paper {PAPER} -m lambertian+ggx --json --numbers --as gltf --scene default",
     "recommend {described} --json --export gltf:{out}/it.gltf",
@@ -113,11 +114,12 @@ NULLABLE = {  # null where the data do not say it, which the commands above all 
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
     *("r_mirror_data", "r_max_data", "gloss_gu", "held_out_rms_ln", "seen", "stderr", "known_to", "shows_from"),
     *("measured_rms_ln", "measured_off_percent", "key", "energy", "reciprocity", "off_plane", "missing"),
-    *("noise_relative", "with_it", "held_out_fits", "at_mirror", "greatest", "high", "needs"),
+    *("noise_relative", "with_it", "held_out_fits", "at_mirror", "greatest", "high", "needs", "relative"),
 }
 OPTIONAL = {  # there or not, as was asked
     *("time_per_sample_ns", "ns_per_sample", "fit_time_s", "on_front", "standard_error_left", "differ_by_noise"),
     *("saving_ns", "saving_stderr_ns", "saving_measurable"),
+    *("pairs", "median_ratio", "median_ratio_over_cosine", "power_of_cosine", "power_stderr"),
 }
 NUMBERS = {"type": ["array", "number"], "items": {"type": "number"}}
 ENDS = {
@@ -267,12 +269,17 @@ def shape(values: list, key: str = "", within: str = "") -> dict:
         made["additionalProperties"] = NUMBERS if key == "written" else free
     elif objects:
         names = dict.fromkeys(name for each in objects for name in each)
-        made["properties"] = {name: shape([e[name] for e in objects if name in e], name) for name in names}
+        made["properties"] = {
+            name: shape([e[name] for e in objects if name in e], name, within if name == "numbers" else "")
+            for name in names
+        }
         always = [name for name in names if name not in OPTIONAL and all(name in each for each in objects)]
         made["required"] = always
     arrays = [item for value in values if isinstance(value, list) for item in value]
     if arrays:
         made["items"] = shape(arrays)
+        if key == "stderr" and made["items"] == {"type": "number"}:
+            made["items"] = {"type": ["null", "number"]}  # of a channel that says nothing of it
     return made
 
 

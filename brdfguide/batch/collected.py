@@ -19,10 +19,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ..errors import BrdfguideError, InputError
-from .store import Store
+from .store import INDEX, Store
 
 SCHEMA = "brdfguide/collected/1"
-INDEX = "collected.sqlite"  # in a folder of answers
 JUST_NOW_NS = 2 * 10**9
 WAITED_S = 300.0  # for another process that collects into the same file
 COLUMNS = {

@@ -68,7 +68,8 @@ def _condition(text: str, word: str) -> Condition:
         raise InputError(f"{word}: wanted a number, or LOW..HIGH behind =")
     number = float(value)
     if sign in "<>":
-        return Condition(column, **{"high" if sign == "<" else "low": number}, strict=True)
+        low, high = (-inf, number) if sign == "<" else (number, inf)
+        return Condition(column, low, high, strict=True)
     margin = ABOUT * abs(number) if sign == "~" else 0.0
     return Condition(column, number - margin, number + margin)
 

@@ -10,8 +10,11 @@ from typing import NamedTuple
 
 from .. import opening
 from ..errors import InputError
+from .store import INDEX, SIGN
 
 MOST_OF_A_LIST = 2**30  # bytes
+OWN_FOLDERS = ("answers", "failed", "names", "claims", "events")  # in a folder of answers
+OWN_FILES = (SIGN, INDEX)
 # What a scheduler of array jobs says of a task: its number, the first number, how many there are, or the last one.
 ARRAYS = (
     ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT", ""),
@@ -124,6 +127,9 @@ def _of_folder(folder: Path, include, recurse: bool, is_ours) -> tuple[list[str]
     """A folder's files, and how many of them nothing here reads."""
     found, others = [], 0
     for place, folders, names in os.walk(folder):
+        if SIGN in names:  # answers lie there: no surfaces, though tables of residuals can be read
+            folders[:] = [each for each in folders if each not in OWN_FOLDERS]
+            names = [each for each in names if each not in OWN_FILES]
         arrays = [each for each in folders if opening.is_array_folder(os.path.join(place, each))]
         folders[:] = sorted(each for each in folders if recurse and not each.startswith(".") and each not in arrays)
         for name in sorted(names + arrays):

@@ -26,6 +26,7 @@ from ..report.documents.digest import digest_holds
 
 SCHEMA = "brdfguide/answers/1"
 SIGN = "brdfguide.json"
+INDEX = "collected.sqlite"  # what `search` keeps of it
 MOST_BYTES = 2**28  # of an answer
 STALE_S = 600.0  # of a claim on another machine, unless files have a time limit of their own
 

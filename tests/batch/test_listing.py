@@ -1,6 +1,7 @@
 """Every name of a list belongs to one shard, whatever it is; folders and patterns are the files that they mean."""
 
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -85,3 +86,20 @@ def test_folders_and_patterns_are_files(tmp_path):
         found(str(tmp_path), include=("*.binary",))
     (tmp_path / "[a].csv").write_text("x")  # a name that looks like a pattern is a name
     assert found(str(tmp_path / "[a].csv")) == (["[a].csv"], 0)
+
+
+def test_answers_that_lie_in_a_folder_are_no_surfaces_of_it(tmp_path):
+    """Tables of residuals could be read, and a second run would take them for measurements."""
+    for name in (
+        "a.csv",
+        "fits/answers/ab/x.residuals.csv",
+        "fits/names/ab/x.json",
+        "fits/collected.sqlite",
+        "more/b.csv",
+    ):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    (tmp_path / "fits" / "brdfguide.json").touch()
+    (tmp_path / "fits" / "c.csv").touch()  # also where data and answers share a folder
+    found = expanded([str(tmp_path)], (), True, lambda path: True)
+    assert [str(Path(each).relative_to(tmp_path)) for each in found.labels] == ["a.csv", "fits/c.csv", "more/b.csv"]

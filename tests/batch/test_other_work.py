@@ -25,6 +25,15 @@ def test_folders_are_inspected_as_their_files_are(tmp_path):
     assert "2 files, 2 answered before" in answered(f"inspect {tmp_path} --out {tmp_path / 'd'}")[2]
 
 
+def test_what_the_program_printed_beside_its_data_is_no_measurement(tmp_path):
+    file = some(tmp_path, "a.csv", 0)
+    (tmp_path / "fit.json").write_text(answered(f"fit {file} -m lambertian --json")[1])
+    status, out, err = answered(f"inspect {tmp_path}")
+    assert status == 0 and len(out.splitlines()) == 2 and "1 files of the folders" in err
+    status, _, err = answered(f"inspect {tmp_path / 'fit.json'}")
+    assert status == 2 and "found what this program printed, brdfguide/fit/1; wanted measured data" in err
+
+
 def test_many_descriptions_are_a_row_each_and_one_outside_stops_none(tmp_path):
     (tmp_path / "hair.yaml").write_text("structure: hair\n")
     (tmp_path / "list").write_text(f"porcelain\n{tmp_path / 'hair.yaml'}\noffice-paper\nnonsense\n")

@@ -216,7 +216,7 @@ def test_what_is_kept_in_a_folder_is_made_anew_where_it_is_damaged_and_elsewhere
 ):
     answers, file = store.store_at(tmp_path / "d"), some(tmp_path, "a.csv", 0)
     list(run_tasks([Task(str(file), file, WORK, answers)], answers))
-    index = tmp_path / "d" / collected.INDEX
+    index = tmp_path / "d" / store.INDEX
     with monkeypatch.context() as patch:
         patch.setattr(collected.os, "access", lambda *_: False)
         with collected.collected(answers) as (_, *counts):

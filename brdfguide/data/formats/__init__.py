@@ -33,6 +33,7 @@ WRITTEN_AS = {  # what is typed -> the format
     "csv": "table",
 }
 NO_TEXT = re.compile(rb"[\0-\x08\x0e-\x1a\x1c-\x1f]")  # control characters that no text has
+OWN_DOCUMENT = re.compile(rb'\s*\{\s*"schema":\s*"brdfguide/')
 ONE_NUMBER = re.compile(rb"(?<![^\s,;|])[-+]?(?:\d+(?:[.,]\d*)?|\.\d+)(?:[eEdD][-+]?\d+)?(?![^\s,;|])")  # a cell alone
 LARGEST_TABLE = TEXT_LIMIT  # bytes of a file beyond which a table is read block by block
 FARTHEST_CHANNEL = 0.1  # of a wavelength: a channel farther away is not the one that was asked for
@@ -169,13 +170,16 @@ def _of_its_size(stream, head: bytes) -> tuple[Format, bytearray] | None:
 def is_readable(path) -> bool:
     """Whether a format claims a file, by its first bytes or, of a binary one without a header, by its size.
 
-    Any text might be a table; one of measured values has a line of three numbers near its beginning.
+    Any text might be a table; one of measured values has a line of three numbers near its beginning. JSON might be
+    measured too, but what this program printed is not.
     """
     try:
         with _open.stream(path, str(path)) as stream:
             head = stream.read(HEAD)
             if _of_its_size(stream, head) is not None:
                 return True
+            if OWN_DOCUMENT.match(head):
+                return False
             return recognised(head, str(path)).name != "table" or _has_numbers(_open.plain_head(head))
     except InputError:
         return False

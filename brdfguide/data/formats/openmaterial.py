@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...finding import Finding
+from ...printable import short
 from ..measurement import Measurement
 from ._pivot import pivoted
 from ._sides import azimuths_on_their_side
@@ -34,6 +35,9 @@ def read(source: Source, options: Options) -> Measurement:
         document = json.loads(source.text)
     except (ValueError, RecursionError) as error:
         raise source.error(f"not valid JSON: {error}") from None
+    schema = document.get("schema") if isinstance(document, dict) else None
+    if isinstance(schema, str) and schema.startswith("brdfguide/"):
+        raise source.error(f"found what this program printed, {short(schema)}; wanted measured data")
     stated = document.get("brdf") if isinstance(document, dict) else None
     brdf: dict = stated if isinstance(stated, dict) else {}
     rows = brdf.get("lookupTable")
