@@ -5,7 +5,8 @@ import pytest
 
 from brdfguide import models
 from brdfguide.errors import InputError
-from brdfguide.fitting.reading import reading
+from brdfguide.fitting.layout import Layout
+from brdfguide.fitting.reading import keep, kept_of, reading, with_slopes
 from brdfguide.models.surface import Surface
 from brdfguide.physics import fresnel
 from brdfguide.physics.aperture import Instrument
@@ -39,3 +40,19 @@ def test_an_impossible_solid_angle_is_refused_in_words(omega):
 def test_nothing_is_read_below_the_horizon():
     geom = Geometry.from_degrees([[95.0], [60.0]], 0.0, [[95.0], [91.0]], 180.0)
     assert np.all(reading(SURFACE, Instrument(geom)) == 0.0)
+
+
+def test_what_is_kept_answers_for_these_values_at_these_directions_alone():
+    model = models.get("lambertian+ggx")
+    layout, surface = Layout(model, 1), Surface(model, {**model.defaults(), "ggx.alpha": 0.3}, ("550 nm",), 0.55)
+    here = Instrument(rows(in_plane(30, np.linspace(-60, 60, 7))))
+    f, slopes = with_slopes(layout, surface, here)
+    assert kept_of(surface, here) is None
+    kept = keep(layout, surface, here)
+    assert kept_of(surface, here) is kept and reading(surface, here) is kept.reading
+    np.testing.assert_array_equal(kept.reading, f)
+    np.testing.assert_array_equal(with_slopes(layout, surface, here)[1]["ggx.alpha"], slopes["ggx.alpha"])
+    for other in (surface.with_value("ggx.alpha", 0.4), surface.at(0.6)):
+        assert kept_of(other, here) is None
+    assert kept_of(surface, Instrument(here.geom, 0.01)) is None
+    assert kept_of(surface, Instrument(rows(in_plane(30, np.linspace(-60, 60, 7))))) is None

@@ -91,3 +91,40 @@ def test_a_start_with_no_number_ends_without_an_answer_and_stops_no_other():
     ends = minimise_all([Descents(broken, starts, 1, low=low)], tolerance=1e-12)[0]
     assert not ends.converged[0] and not np.isfinite(ends.cost[0])
     assert ends.converged[1] and ends.at[1, 0] == pytest.approx(4.0, rel=1e-9)
+
+
+def _bent(which, at):
+    """x - 3 and a little of its square."""
+    r = np.stack((at - 3, 0.1 * at**2 + 0.5), axis=2)
+    return np.concatenate((np.stack((np.ones_like(at), 0.2 * at), axis=2), r), axis=1)[:, None]
+
+
+def test_others_go_on_where_some_ended_without_looking_there_again():
+    seen = []
+
+    def evaluate(which, at):
+        seen.append(len(at))
+        return _bent(which, at)
+
+    starts = np.array([[7.0], [-2.0]])
+    short = minimise_all([Descents(evaluate, starts, 1)], tolerance=1e-12, most=3)[0]
+    looked = len(seen)
+    known = short.cost, short.slope, short.normal
+    found = minimise_all([Descents(evaluate, short.at, 1, known=known)], tolerance=1e-12)[0]
+    again = minimise_all([Descents(_bent, short.at, 1)], tolerance=1e-12)[0]
+    np.testing.assert_array_equal(found.at, again.at)
+    assert len(seen) - looked == found.evaluations.max() - 1
+
+
+def test_a_foreseen_step_ends_where_one_that_was_looked_at_does():
+    seen = []
+
+    def evaluate(which, at):
+        seen.append(len(at))
+        return _bent(which, at)
+
+    start = np.array([[7.0]])
+    looked = minimise_all([Descents(_bent, start, 1)], tolerance=1e-5)[0]
+    ends = minimise_all([Descents(evaluate, start, 1)], tolerance=1e-5, foreseen=True)[0]
+    np.testing.assert_array_equal(ends.at, looked.at)
+    assert ends.converged.all() and ends.cost[0] > looked.cost[0] and len(seen) == looked.evaluations[0] - 1

@@ -43,3 +43,11 @@ def test_errors_elsewhere_are_as_large_as_foretold_on_seeds_0_to_59():
         squares += np.sum((unknown[40:] + ONWARD @ b - found.mean) ** 2)
         foreseen += np.sum(found.variance)
     assert 0.8 < squares / foreseen < 1.25
+
+
+def test_others_that_stand_at_one_place_are_foretold_as_each_alone():
+    values, which = RANDOM.standard_normal(40), np.array([3, 0, 3, 8, 1])
+    alone = weighed(Places.between(KNOWN, OTHERS[which]), values, SLOPES).elsewhere(ONWARD[:5])
+    once = weighed(Places.between(KNOWN, OTHERS, which), values, SLOPES).elsewhere(ONWARD[:5])
+    assert once.mean == pytest.approx(alone.mean, rel=1e-9, abs=1e-12)
+    assert once.variance == pytest.approx(alone.variance, rel=1e-9, abs=1e-12)
