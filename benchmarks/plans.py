@@ -1,6 +1,6 @@
 """Plans against whole tables: what a law fitted to a few planned directions misses over all of them.
 
-    python benchmarks/plans.py [--draws 5] [--moved 5]
+    python benchmarks/plans.py [--draws 5] [--moved 5] [--only WORD]
 
 For each given table nine laws are fitted to the directions of the table nearest to a plan's, and to the whole table;
 told is the ratio of the two errors over the whole table, the median over the laws. `random` draws directions of the
@@ -47,6 +47,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--draws", type=int, default=5, help="random draws of 16 directions")
     parser.add_argument("--moved", type=int, default=5, help="times that a blind plan is moved by a few degrees")
+    parser.add_argument("--only", default="", help="tables with this in their names")
     asked = parser.parse_args()
     target, unknown = hemisphere(80.0), hypotheses.unknown()
     blind = {
@@ -56,7 +57,7 @@ def main() -> None:
     }
     print(f"| table | {' | '.join(BARS)} | 16 random (worst) |")
     print("|---" * (len(BARS) + 2) + "|")
-    rows = [_of_table(*each, blind, asked.draws, asked.moved) for each in tables()]
+    rows = [_of_table(*each, blind, asked.draws, asked.moved) for each in tables() if asked.only in each[0]]
     for name, bar in BARS.items():
         found = [[row[each] <= bar for row in rows] for each in (name, f"{name} moved") if each in rows[0]]
         told = ", moved ".join(str(sum(each)) for each in found)

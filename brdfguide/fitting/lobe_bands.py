@@ -14,7 +14,7 @@ BANDS_DEG = ((0.0, 0.5), (0.5, 2.0), (2.0, 6.0))  # of the tilt: the height of a
 WITHIN_DEG = (0.0, 1.0, 4.0)  # the tilt that is looked for in each
 INCIDENCE_DEG = (20.0, 45.0, 65.0)  # least, best and most: beyond, laws miss most (ours)
 CROWDED = 0.01  # of a file's directions in the first band: it was laid out for a lobe so narrow (ours)
-FEW, MANY = 8, 16  # directions of a plan: from which on it sees a crowded highlight, and any mirror direction
+FEW = 8  # directions of a plan, from which on it sees that lobe
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,29 +36,26 @@ def tilts_deg(geom: Geometry) -> np.ndarray:
 
 
 def lobe_bands(offered: Geometry, count: int) -> list[LobeBand]:
-    """What a plan of so many of these directions is to see: the mirror direction, from sixteen on; where the file
-    crowds there, from eight on, and the flank and the foot of the lobe as well. None where no direction is the
-    mirror's."""
-    tilt = tilts_deg(offered)
-    crowded = np.mean(tilt <= BANDS_DEG[0][1]) >= CROWDED
-    found = _bands(offered) if count >= FEW else []
-    found = found if crowded else found[: int(count >= MANY)]
-    return [each for each in found if each is not None]
+    """What a plan of so many of these directions is to see where they crowd about the mirror direction: height, flank
+    and foot of a narrow lobe. None elsewhere: one of few would count a lobe that hardly any of all directions has."""
+    crowded = count >= FEW and np.mean(tilts_deg(offered) <= BANDS_DEG[0][1]) >= CROWDED
+    return _bands(offered) if crowded else []
 
 
 def lobe_rows(geom: Geometry) -> list[int]:
     """Numbers of the directions of a file that `lobe_bands` would take."""
-    return [each.best for each in _bands(geom) if each is not None]
+    return [each.best for each in _bands(geom)]
 
 
-def _bands(geom: Geometry) -> list[LobeBand | None]:
+def _bands(geom: Geometry) -> list[LobeBand]:
     tilt, incidence = tilts_deg(geom), np.maximum(geom.theta_i_deg, geom.theta_r_deg)[:, 0]
     least, middle, most = INCIDENCE_DEG
-    found: list[LobeBand | None] = []
+    found: list[LobeBand] = []
     for (low, high), wanted in zip(BANDS_DEG, WITHIN_DEG, strict=True):
         free = (tilt >= low) & (tilt <= (high if low else MIRROR_DEG)) & (incidence >= least) & (incidence <= most)
         if not low and not free.any():
             return []
-        off = np.abs(tilt - wanted) / high + np.abs(incidence - middle) / middle
-        found.append(LobeBand((low, high), int(np.argmin(np.where(free, off, np.inf)))) if free.any() else None)
+        if free.any():
+            off = np.abs(tilt - wanted) / high + np.abs(incidence - middle) / middle
+            found.append(LobeBand((low, high), int(np.argmin(np.where(free, off, np.inf)))))
     return found

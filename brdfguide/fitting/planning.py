@@ -8,9 +8,9 @@ is then larger than that of a fit to all of them by
 with J̃ the derivatives of ln f by the law's parameters, orthonormal under the measure w of all directions, and δ what
 the law misses: smooth in the tilt of the half vector, the angle from it to the light and toward grazing, and by
 another part that changes within degrees. E is formed over every such δ at once as a kernel, and small where the
-directions stand for w in every J̃ δ (`numerics.herding`). How quickly δ changes is not known before it was measured: the
-kernel is the mean over lengths from half to twice the middle ones. Nothing of it is fitted to any table; the widths of
-the kernel are ours.
+directions stand for w in every J̃ δ (`numerics.herding`). Nothing of it is fitted to any table; the widths of the
+kernel are ours. Where a file says how the directions lie, how quickly δ changes is what is left unknown, and in the
+plane of incidence the rest lies far off: there the kernel is the mean over lengths from half to twice these.
 """
 
 from collections.abc import Iterable
@@ -37,7 +37,7 @@ from .ranked import Ranking
 
 TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes with the tilt, beyond with its logarithm
 WIDTHS = (1.2, 50.0, 50.0)  # of the kernel: asinh(tan tilt/TILT), angle from light to half vector, to grazing [deg]
-LENGTHS = (0.5, 1.0, 2.0)  # times these widths, which are alike probable (ours)
+LENGTHS = (0.5, 1.0, 2.0)  # times these widths, alike probable among a file's directions and in the plane (ours)
 ROUGH = 1.0  # variance of what changes within degrees over that of what does not
 ROUGH_DEG = 5.0  # within so many
 SQUARES = 0.5  # how much it counts that the derivatives' own products are right
@@ -98,6 +98,7 @@ class Everywhere:
     weights: np.ndarray  # 0 for those that may be measured, and count nothing
     hypotheses: tuple[Hypothesis, ...]
     solid_angle: float | None = None
+    lengths: tuple[float, ...] = (1.0,)  # times WIDTHS, alike probable
 
     @cached_property
     def _tangents(self) -> tuple[np.ndarray, np.ndarray]:
@@ -127,7 +128,7 @@ class Everywhere:
         tilt = np.arcsinh(np.sqrt(geom.tan2_h) / TILT)
         place = np.concatenate([tilt, difference, grazing], axis=1) / np.array(WIDTHS)
         near = _vectors(geom) / np.radians(ROUGH_DEG)
-        smooth = sum(gaussian_kernel(place / each, place / each) for each in LENGTHS) / len(LENGTHS)
+        smooth = sum(gaussian_kernel(place / each, place / each) for each in self.lengths) / len(self.lengths)
         return smooth + ROUGH * gaussian_kernel(near, near)
 
     def groups(self, numbers: list[np.ndarray], squares: bool) -> Groups:
@@ -164,7 +165,11 @@ def plan_everywhere(
     parts += [measured] if measured is not None else []
     starts = np.cumsum([0, *map(len, parts)])
     everywhere = Everywhere(
-        joined_rows(parts), np.r_[target[1], np.zeros(starts[-1] - starts[1])], hypotheses, reach.solid_angle
+        joined_rows(parts),
+        np.r_[target[1], np.zeros(starts[-1] - starts[1])],
+        hypotheses,
+        reach.solid_angle,
+        LENGTHS if among is not None or reach.in_plane else (1.0,),
     )
     choice = _choice(everywhere.geom, reach, starts, scans, among is not None, len(offered))
     fixed = [np.arange(starts[-2], starts[-1])] if measured is not None else []

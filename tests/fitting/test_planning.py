@@ -74,8 +74,8 @@ def test_a_lobe_of_half_a_degree_has_its_height_from_sixteen_directions(blind):
         found = fitting.fit(model, synthetic.surface(model, geom, narrow, noise=0.02, seed=3))
         return abs(float(ln_residuals(found.surface, synthetic.surface(model, mirror, narrow))[0, 0]))
 
-    assert missed(blind.geom) < 0.8
-    assert missed(blind.geom[lobe_bands.tilts_deg(blind.geom) > lobe_bands.MIRROR_DEG]) > 5
+    assert missed(blind.geom) < 0.4
+    assert missed(blind.geom[lobe_bands.tilts_deg(blind.geom) > lobe_bands.MIRROR_DEG]) > 1
 
 
 def file_of_directions(*crowd: tuple[float, int]) -> Geometry:
@@ -99,19 +99,18 @@ def planned_among(offered: Geometry, count: int, measured=None):
     )
 
 
-def test_of_sixteen_among_a_files_directions_one_is_the_mirrors_at_no_grazing_angle():
+def test_where_hardly_any_direction_of_a_file_is_the_mirrors_none_is_taken_for_its_sake():
     offered = file_of_directions((0.0, 3))
-    sixteen = planned_among(offered, 16)
-    at = lobe_bands.tilts_deg(sixteen.geom) < lobe_bands.MIRROR_DEG
-    assert len(sixteen.geom) == 16 and np.any(at & (sixteen.geom.theta_i_deg[:, 0] == 45))
-    assert sixteen.blocks[-1].after < 1.5  # it stands beside the mean, which it would spoil
-    none = file_of_directions((0.2, 3))  # nothing within a tenth of a degree: nothing is taken for it
-    assert not lobe_bands.lobe_bands(none, 16) and not lobe_bands.lobe_bands(offered, 8)
+    assert not lobe_bands.lobe_bands(offered, 16)
+    none_exact = file_of_directions((0.2, 20), (1.0, 4))  # crowded, but nothing within a tenth of a degree
+    assert not lobe_bands.lobe_bands(none_exact, 16) and not lobe_bands.lobe_rows(none_exact)
 
 
 def test_where_a_file_crowds_about_the_mirror_direction_eight_see_the_lobes_height_flank_and_foot():
     offered = file_of_directions((0.0, 20), (1.0, 4), (4.0, 4))
-    eight = planned_among(offered, 8).geom
+    plan = planned_among(offered, 8)
+    eight = plan.geom
+    assert plan.blocks[-1].after < 1.5  # those three stand beside the mean, which they would spoil
     tilt = lobe_bands.tilts_deg(eight)
     assert len(eight) == 8
     for low, high in lobe_bands.BANDS_DEG:
