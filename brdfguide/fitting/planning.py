@@ -188,19 +188,15 @@ def plan_everywhere(
     def pick(count: int, free) -> list[int]:
         return representatives(groups, count, free, near, there, one_of)
 
-    if among is None or scans:
-        picked, beside = pick(budget, allowed), list[int]()
-    else:
-        picked, beside = _with_lobe(everywhere.geom, numbers, allowed, budget, pick)
-    picked = [*picked, *beside]
+    beside = [] if among is None or scans else _of_lobe(everywhere.geom, numbers, allowed, budget, pick)
+    picked = [*pick(budget - len(beside), allowed & ~np.isin(np.arange(len(numbers)), beside)), *beside]
     told = everywhere.groups(numbers, squares=False)
 
     def expected(some: list[int]) -> float | None:
         some = [each for each in some if each not in beside]
         return float(np.sqrt(1 + max(told.distance(some), 0.0) / (1 + ROUGH))) if some else None
 
-    blocks = []
-    size = 1 if scans else BLOCK
+    blocks, size = [], 1 if scans else BLOCK
     for start in range(0, len(picked), size):
         chosen = picked[start : start + size]
         geom = everywhere.geom[np.concatenate([numbers[each] for each in chosen])]
@@ -222,21 +218,21 @@ def _choice(geom, reach: Goniometer, starts, scans: bool, among: bool, count: in
     return [np.array([row]) for row in rows[once] if reach.reaches(geom[[row]])[0]]
 
 
-def _with_lobe(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int, pick) -> tuple[list[int], list[int]]:
-    """Groups of single directions that `pick` (how many, of which) takes, and those that it would not, from which a
-    narrow lobe is seen: no mean over all directions is to be made right by them."""
+def _of_lobe(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int, pick) -> list[int]:
+    """Groups of single directions from which a narrow lobe is seen, where those that `pick` (how many, of which) takes
+    beside them do not: no mean over all directions is to be made right by them."""
     single = np.flatnonzero(allowed)
-    rows = np.array([numbers[each][0] for each in single])
     measured = [each for each, free in zip(numbers, allowed, strict=True) if not free]
-    wanted = lobe_bands(geom[rows], budget + sum(map(len, measured)))
-    beside: list[int] = []
-    while True:
+    offered = geom[np.array([numbers[each][0] for each in single])]
+    wanted, beside = lobe_bands(offered, budget + sum(map(len, measured))), list[int]()
+    while wanted:
         picked = pick(budget - len(beside), allowed & ~np.isin(np.arange(len(allowed)), beside))
         seen = geom[np.concatenate([*measured, *(numbers[each] for each in (*picked, *beside))])]
         missing = [int(single[each.best]) for each in wanted if not each.holds(seen)]
         if not missing:
-            return picked, beside
-        beside += missing
+            break
+        beside = [*beside, *missing]
+    return beside
 
 
 def _mirror(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int) -> np.ndarray | None:
