@@ -7,6 +7,7 @@ A file is begun again where it was started twice: `--events` tells it of our own
 on a cluster tell it themselves, each in a file of the folder of answers.
 """
 
+import argparse
 import json
 import os
 import random
@@ -105,4 +106,8 @@ def main(count: int, seeds: list[int]) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), list(map(int, sys.argv[2:])))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", type=int, help="how many")
+    parser.add_argument("seeds", type=int, nargs="+")
+    asked = parser.parse_args()
+    main(asked.files, asked.seeds)
