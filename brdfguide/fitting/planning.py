@@ -225,13 +225,13 @@ def _of_lobe(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int, pi
     measured = [each for each, free in zip(numbers, allowed, strict=True) if not free]
     offered = geom[np.array([numbers[each][0] for each in single])]
     wanted, beside = lobe_bands(offered, budget + sum(map(len, measured))), list[int]()
-    while wanted:
+    while wanted and len(beside) < budget:
         picked = pick(budget - len(beside), allowed & ~np.isin(np.arange(len(allowed)), beside))
         seen = geom[np.concatenate([*measured, *(numbers[each] for each in (*picked, *beside))])]
         missing = [int(single[each.best]) for each in wanted if not each.holds(seen)]
         if not missing:
             break
-        beside = [*beside, *missing]
+        beside = [*beside, *missing][:budget]
     return beside
 
 

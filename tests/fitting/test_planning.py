@@ -115,6 +115,8 @@ def test_where_a_file_crowds_about_the_mirror_direction_eight_see_the_lobes_heig
     assert len(eight) == 8
     for low, high in lobe_bands.BANDS_DEG:
         assert np.any((tilt >= low) & (tilt <= high))
+    far = offered[lobe_bands.tilts_deg(offered) > lobe_bands.BANDS_DEG[-1][1]][:8]
+    assert len(planned_among(offered, 2, measured=far).geom) == 2  # no more than the budget
     more = planned_among(offered, 8, measured=eight).geom  # what was seen already is not asked for again
     assert np.count_nonzero(lobe_bands.tilts_deg(more) <= lobe_bands.BANDS_DEG[-1][1]) < 3
 
