@@ -2,12 +2,10 @@
 them. Needs zarr.
 """
 
-import logging
 import re
 from functools import partial
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
-from zipfile import ZipFile
 
 from ...opening import ARRAY_FOLDER, ARRAY_FOLDERS
 from . import _named_arrays
@@ -30,6 +28,8 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     zarr = library("zarr", "zarr", source, "a zarr folder")
     if source.place is None:
         raise source.error("a zarr folder, or a ZIP of one, is read where it lies, not from a stream")
+    import logging
+
     logging.getLogger("asyncio").addFilter(_of_others)
     with damage_told(source, KIND):
         if source.place.is_dir():
@@ -41,7 +41,7 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     return _named_arrays.tables_in(source, KIND, root, partial(_members, source, files), partial(_stored, files))
 
 
-def _of_others(record: logging.LogRecord) -> bool:
+def _of_others(record) -> bool:
     """Whether it is no second error of a damaged folder, beside the one that is told."""
     return "zarr" not in record.getMessage()
 
@@ -53,6 +53,8 @@ def _folder(folder: Path) -> dict[str, int]:
 
 def _archive(source: Source) -> dict[str, int]:
     """The same of a ZIP, as packed. Raises InputError for one that swells more than any of measured values."""
+    from zipfile import ZipFile
+
     assert source.place
     with ZipFile(source.place) as archive:
         entries = [each for each in archive.infolist() if not each.is_dir()]
