@@ -42,6 +42,7 @@ LATE = {
     "photographs.rod_outline": {"scipy.optimize"},  # of which a ball has no need
     "photographs.readers": {"cv2", "OpenEXR", "rawpy"},  # optional dependencies
     "data.formats.spreadsheet": {"zipfile"},  # every command that reads would load it for workbooks alone
+    "data.formats.zarr": {"logging", "zipfile"},  # the same for zarr
     "data.formats.klems": {"xml.etree"},  # the same for XML
     "data.formats._open": {"zlib", "lzma", "bz2"},  # Python may be built without them
     "errors": {"difflib", "pathlib", ".", ".printable"},  # only to word an error, and `roughness` starts without them
