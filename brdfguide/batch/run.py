@@ -371,7 +371,8 @@ def _failed_before(task: Task, again: Again) -> FileRow | None:
         return None
     if found["state"] == OUT_OF_MEMORY and again.limits.memory_mb is None:
         return None  # of that machine, at that moment
-    named = re.compile(rf"^{re.escape(str(found.get('file')))}(?=\W)", re.MULTILINE)
+    name = re.escape(str(found.get("file")))
+    named = re.compile(rf"^{name}(?=\W)", re.MULTILINE)
     error = named.sub(lambda _: task.label, found["error"])
     return _named(task, failed_row(task.label, found["state"], error, key=task.key, from_before=True), {})
 

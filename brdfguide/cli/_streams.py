@@ -4,6 +4,7 @@ import codecs
 import io
 import os
 import sys
+from typing import Any
 
 
 def prepare_streams() -> None:
@@ -23,12 +24,13 @@ def prepare_streams() -> None:
             stream.reconfigure(errors="shown")
 
 
-def _whole(stream):
+def _whole(stream: Any):
     """A stream that writes all or says why not: without a buffer (PYTHONUNBUFFERED) what a full disk left out would be
-    nobody's error."""
-    if not isinstance(getattr(stream, "buffer", None), io.RawIOBase):
+    nobody's error. Of the process's own alone: another belongs to whoever put it there."""
+    is_own = stream is not None and stream is sys.__stdout__
+    if not is_own or not isinstance(getattr(stream, "buffer", None), io.RawIOBase):
         return stream
-    buffered = io.BufferedWriter(stream.buffer)
+    buffered = io.BufferedWriter(io.FileIO(stream.fileno(), "w", closefd=False))
     return io.TextIOWrapper(buffered, stream.encoding, stream.errors, line_buffering=stream.line_buffering)
 
 

@@ -84,11 +84,12 @@ def without_marks(measurement: Measurement) -> Measurement:
 
 
 def _impossible(brdf) -> np.ndarray:
-    """Values that can neither be measured nor noise: far further below zero than any lies above it, or immense."""
+    """Values that can neither be measured nor noise: far further below zero than any lies above it, or immense; none
+    where nothing else is there."""
     with np.errstate(invalid="ignore"):
         immense = brdf >= NO_BRDF
         largest = np.nanmax(np.where(immense, np.nan, brdf), initial=0.0)
-        return immense | (brdf < -BELOW_NOISE * largest) if largest > 0 else immense
+        return (immense | (brdf < -BELOW_NOISE * largest)) & (largest > 0)
 
 
 def _marks_note(measurement: Measurement, mask) -> Finding:

@@ -81,9 +81,9 @@ class Weighed:
         onward, which = self.places.onward, self.places.which
         q, j, pull = self.values, self.slopes, self.ratio[:, None] * self.weight
         here = onward_slopes @ self.moved.T + (onward @ (pull * (q - self.moved @ j.T)).T)[which]
-        count = len(pull)
-        moved = (pull[:, :, None] * j).transpose(1, 0, 2).reshape(len(q), -1)  # all at once: one product of matrices
-        loose = onward_slopes - (onward @ moved).reshape(len(onward), count, -1)[which].transpose(1, 0, 2)
+        count, p = len(pull), j.shape[1]
+        moved = (pull[:, :, None] * j).transpose(1, 0, 2).reshape(len(q), count * p)  # at once: one product of matrices
+        loose = onward_slopes - (onward @ moved).reshape(len(onward), count, p)[which].transpose(1, 0, 2)
         of_unknown = self.ratio * (1 - self.places.onward_squares @ pull.T)[which]
         # lᵀ A⁻¹ l by the inverse of A's triangular factor, which has no rows of right hand sides to solve for
         of_slopes = np.square(loose @ np.linalg.inv(np.linalg.cholesky(self.inside)).transpose(0, 2, 1)).sum(axis=2).T
@@ -101,8 +101,8 @@ def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
     # by the other eigenvectors values are noise alone, and count once: of them the sums are enough
     silent = slopes.T @ slopes - j.T @ j, slopes.T @ values - j.T @ q, values @ values - q @ q
     weight = 1 / (1 + RATIOS[:, None] * places.strength)
-    pairs = (j[:, :, None] * j[:, None, :]).reshape(len(q), -1)
-    products = (weight @ pairs).reshape(-1, *silent[0].shape) + silent[0]
+    pairs = (j[:, :, None] * j[:, None, :]).reshape(len(q), j.shape[1] ** 2)
+    products = (weight @ pairs).reshape(len(weight), *silent[0].shape) + silent[0]
     pull, power = (weight * q) @ j + silent[1], np.maximum(weight @ q**2 + silent[2], 0.0)
     noise = np.maximum(power / count, LEAST_NOISE)
     for _ in range(ROUNDS):

@@ -153,8 +153,9 @@ WITHOUT_WORKERS = CLUSTER.replace("n_workers=2", "n_workers=0")
 @pytest.mark.filterwarnings("default")
 def test_a_cluster_without_a_worker_is_not_waited_for_for_ever(tmp_path, monkeypatch):
     (tmp_path / "cluster.py").write_text(WITHOUT_WORKERS)
-    command = [sys.executable, str(tmp_path / "cluster.py")]
-    run = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    command, environment = [sys.executable, str(tmp_path / "cluster.py")], {**os.environ, "PYTHONPATH": str(ROOT)}
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    run = subprocess.Popen(command, env=environment, text=True, **pipes)
     monkeypatch.setattr("brdfguide.batch.scheduler.WORKERLESS_S", 0.2)
     monkeypatch.setattr("brdfguide.batch.scheduler.LOOK_S", 0.1)
     with pytest.raises(EngineLost, match="it has had no worker for 0.2 seconds"):

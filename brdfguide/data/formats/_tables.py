@@ -13,7 +13,8 @@ from .format import Source
 
 # what zarr, numcodecs, HDF5 and Arrow say of a codec that they lack
 NOT_INSTALLED = re.compile(
-    r"unknown codec|codec not available|filter \S+ .*is not registered|codec .* not built", re.IGNORECASE
+    r"unknown codec|codec not available|filter \S{1,80} .{0,160}is not registered|codec .{0,160} not built",
+    re.IGNORECASE,
 )
 
 
