@@ -4,7 +4,6 @@ import codecs
 import io
 import os
 import sys
-from typing import Any
 
 
 def prepare_streams() -> None:
@@ -24,14 +23,14 @@ def prepare_streams() -> None:
             stream.reconfigure(errors="shown")
 
 
-def _whole(stream: Any):
+def _whole(stream):
     """A stream that writes all or says why not: without a buffer (PYTHONUNBUFFERED) what a full disk left out would be
     nobody's error. Of the process's own alone: another belongs to whoever put it there."""
-    is_own = stream is not None and stream is sys.__stdout__
-    if not is_own or not isinstance(getattr(stream, "buffer", None), io.RawIOBase):
+    own = sys.__stdout__
+    if own is None or stream is not own or not isinstance(getattr(own, "buffer", None), io.RawIOBase):
         return stream
-    buffered = io.BufferedWriter(io.FileIO(stream.fileno(), "w", closefd=False))
-    return io.TextIOWrapper(buffered, stream.encoding, stream.errors, line_buffering=stream.line_buffering)
+    buffered = io.BufferedWriter(io.FileIO(own.fileno(), "w", closefd=False))
+    return io.TextIOWrapper(buffered, own.encoding, own.errors, line_buffering=own.line_buffering)
 
 
 def _shown(error: UnicodeError):
