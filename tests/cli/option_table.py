@@ -283,7 +283,7 @@ ACTS = {
         "--f0": Acts("--f0 0.04", "index"),
         "--n": Acts("--n 1.5", "index"),
         "--k": Acts("--k 2"),
-        "--wavelength-nm": Acts("--wavelength-nm 650", "index Au/Johnson"),
+        "--wavelength-nm": Acts("--wavelength-nm 450", "index gold"),
     },
     "materials": {"--keys": Acts("--keys")},
     "models": {},
