@@ -73,9 +73,8 @@ def _connected(address: str):
         from distributed import Client, as_completed
     except ImportError:
         raise InputError(EXTRA) from None
-    logging.getLogger("distributed.client").setLevel(
-        logging.CRITICAL
-    )  # its traceback of a lost scheduler is our sentence
+    # its traceback of a lost scheduler is our sentence
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     made: list = []
 
     def connect() -> None:

@@ -73,10 +73,10 @@ def _held_out(following: Following, ends: list[End], folds: list["_Fold"]) -> He
         last = float(np.sqrt(square / known.size)) if known.size else np.nan
     highest = folds[-1].inside
     told = highest.clear.any(axis=1)
-    without = tuple(_left_out(following.misfit.layout, end, fold) for end, fold in zip(ends, folds, strict=True))
-    turned = turn_of_each(following.misfit.measurement.geom) is not None
-    steepest = float(highest.geom.theta_i_deg[told].max())
-    return HeldOut(float(np.sqrt(squares / counts)), last, steepest, () if turned else without)
+    steepest, without = float(highest.geom.theta_i_deg[told].max()), tuple[LeftOut, ...]()
+    if turn_of_each(following.misfit.measurement.geom) is None:
+        without = tuple(_left_out(following.misfit.layout, end, fold) for end, fold in zip(ends, folds, strict=True))
+    return HeldOut(float(np.sqrt(squares / counts)), last, steepest, without)
 
 
 def _left_out(layout: Layout, end: End, fold: "_Fold") -> LeftOut:

@@ -188,8 +188,8 @@ def plan_everywhere(
     def pick(count: int, free) -> list[int]:
         return representatives(groups, count, free, near, there, one_of)
 
-    beside = [] if among is None or scans else _of_lobe(everywhere.geom, numbers, allowed, budget, pick)
-    picked = [*pick(budget - len(beside), allowed & ~np.isin(np.arange(len(numbers)), beside)), *beside]
+    of_file = among is not None and not scans
+    picked, beside = _with_lobe(everywhere.geom, numbers, allowed, budget, pick, of_file)
     told = everywhere.groups(numbers, squares=False)
 
     def expected(some: list[int]) -> float | None:
@@ -218,21 +218,24 @@ def _choice(geom, reach: Goniometer, starts, scans: bool, among: bool, count: in
     return [np.array([row]) for row in rows[once] if reach.reaches(geom[[row]])[0]]
 
 
-def _of_lobe(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int, pick) -> list[int]:
-    """Groups of single directions from which a narrow lobe is seen, where those that `pick` (how many, of which) takes
-    beside them do not: no mean over all directions is to be made right by them."""
-    single = np.flatnonzero(allowed)
+def _with_lobe(
+    geom: Geometry, numbers: list[np.ndarray], allowed, budget: int, pick, of_file: bool
+) -> tuple[list[int], list[int]]:
+    """What `pick` (how many, of which) takes and, last and by themselves, single directions of a file from which a
+    narrow lobe is seen, where the former do not see it: no mean over all directions is to be made right by them."""
+    single, beside = np.flatnonzero(allowed), list[int]()
     measured = [each for each, free in zip(numbers, allowed, strict=True) if not free]
     offered = geom[np.array([numbers[each][0] for each in single])]
-    wanted, beside = lobe_bands(offered, budget + sum(map(len, measured))), list[int]()
-    while wanted and len(beside) < budget:
+    wanted = lobe_bands(offered, budget + sum(map(len, measured))) if of_file else []
+    while True:
         picked = pick(budget - len(beside), allowed & ~np.isin(np.arange(len(allowed)), beside))
+        if not wanted or len(beside) == budget:
+            return [*picked, *beside], beside
         seen = geom[np.concatenate([*measured, *(numbers[each] for each in (*picked, *beside))])]
         missing = [int(single[each.best]) for each in wanted if not each.holds(seen)]
         if not missing:
-            break
+            return [*picked, *beside], beside
         beside = [*beside, *missing][:budget]
-    return beside
 
 
 def _mirror(geom: Geometry, numbers: list[np.ndarray], allowed, budget: int) -> np.ndarray | None:

@@ -22,7 +22,7 @@ from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
 from ._tables import damage_told, sheet_of_columns, with_unit
-from .format import Format, Options, Source
+from .format import OF_TABLES, Format, Options, Source
 
 MOST_CELLS = 50_000_000  # read at once
 LARGEST_CELLS = 8_000_000  # beyond, a fit reads it in pieces
@@ -96,7 +96,7 @@ def format_of(
         read,
         own_side=False,
         groups=groups,
-        options=("columns", "unit", "select", "rotation_sense"),
+        options=OF_TABLES,
         parts=parts,
         is_large=is_large,
         in_place=True,

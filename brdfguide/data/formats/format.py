@@ -16,6 +16,7 @@ from ..columns import prose
 from ..measurement import Measurement
 
 MARK = b"\xef\xbb\xbf"  # of UTF-8; in front of what is none it is no text either
+OF_TABLES = ("columns", "unit", "select", "rotation_sense")  # options of reading that a table under names takes
 TEXT_LIMIT = 160 * 2**20  # bytes of text: a whole MERL table as CSV; a gonioreflectometer fills a hundredth of it
 MOST_DEG = 1e5  # no azimuth turns more often
 SHORTEST_UM = 0.1  # wavelengths beyond are no optical measurement

@@ -11,7 +11,7 @@ from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import is_number, read_sheet
 from ._tables import as_text, library
-from .format import TEXT_LIMIT, Format, Options, Source
+from .format import OF_TABLES, TEXT_LIMIT, Format, Options, Source
 
 SHEET = "sheet"  # what --select calls the choice of a sheet
 MOST_SWELLING = 200
@@ -94,5 +94,5 @@ FORMAT = Format(
     read,
     own_side=False,
     groups=groups,
-    options=("columns", "unit", "select", "rotation_sense"),
+    options=OF_TABLES,
 )

@@ -13,7 +13,7 @@ from ...printable import comment
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import read_sheet
-from .format import Format, Options, Source
+from .format import OF_TABLES, Format, Options, Source
 
 
 def recognises(head: bytes) -> bool:
@@ -88,6 +88,6 @@ FORMAT = Format(
     read,
     own_side=False,
     groups=groups,
-    options=("columns", "unit", "select", "rotation_sense"),
+    options=OF_TABLES,
     write=write,
 )
