@@ -21,6 +21,11 @@ WAITED_S = 10.0  # for the scheduler
 WORKERLESS_S = 600.0  # for a worker, which may wait in a queue of its own
 LOOK_S = 5.0  # between two looks whether there is one
 POLL_S = 0.02
+UNDER_WAY = {
+    "pending",
+    "lost",
+}  # of what was done by a worker that ended before it told: the scheduler has it done again
+PAUSES_S = (0.1, 0.5)  # between tries to connect where the library fails otherwise than for want of a scheduler
 AHEAD = 3  # parts handed out for each of the cluster's threads
 MOST = 4  # tasks of a part: to hand one over and back takes some 5 ms of processor time
 EXTRA = "--scheduler needs dask.distributed: pip install 'brdfguide[farm]'"
@@ -60,6 +65,9 @@ def by_scheduler(
                     running.add(future)
             if numbers:
                 future = _next(running, client, address)
+                if future.status in UNDER_WAY:
+                    running.add(future)
+                    continue
                 yield from _results(future, numbers.pop(future), address)
     except (OSError, TimeoutError) as error:
         raise _lost(address, str(error)) from None
@@ -78,18 +86,23 @@ def _connected(address: str):
     made: list = []
 
     def connect() -> None:
-        try:
-            made.append(Client(address, timeout=WAITED_S, set_as_default=False))
-        except Exception as error:
-            made.append(error)
+        for pause in (*PAUSES_S, None):
+            try:
+                made.append(Client(address, timeout=WAITED_S, set_as_default=False))
+            except Exception as error:
+                if pause is not None and not isinstance(error, (ValueError, TypeError, OSError)):
+                    time.sleep(pause)
+                    continue
+                made.append(error)
+            return
 
     connecting = threading.Thread(target=connect, daemon=True)
     connecting.start()
     connecting.join(WAITED_S + 2)  # what is no scheduler may take a greeting and never answer it
-    if not made or isinstance(made[0], (OSError, TimeoutError)):
+    if not made or isinstance(made[0], OSError):
         raise EngineLost(f"--scheduler {address}: no scheduler answers there within {WAITED_S:g} seconds")
     if isinstance(made[0], Exception):
-        words = f"{printable.line(made[0])}; wanted an address such as tcp://127.0.0.1:8786"
+        words = f"{printable.line(made[0]) or type(made[0]).__name__}; wanted an address such as tcp://127.0.0.1:8786"
         raise InputError(f"--scheduler {address}: {words}")
     return made[0], as_completed
 
