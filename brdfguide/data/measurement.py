@@ -14,6 +14,7 @@ from ..records import dataclass
 from .noise_model import NoiseModel
 from .otherwise import Otherwise
 
+SMALLEST = 1e-300  # 1/sr, of a law
 LARGEST = 1e100  # 1/sr, and its inverse the least: beyond is no measurement
 FEW = 10_000  # values, beyond which short numbers sort sooner
 MOST_HELD = 120  # distinct incidence angles; with more, none was held
@@ -105,6 +106,13 @@ class Measurement(KeepsFormed):
         if self.noise is None or not self.noise.matters:
             return self.brdf
         return np.maximum(self.brdf, self.noise.floor)
+
+    @cached_property
+    def least(self) -> np.ndarray | float:
+        """(channels,) [1/sr]: a law that gives less is taken here, since nothing tells less from nothing."""
+        if self.noise is None or not self.noise.matters:
+            return SMALLEST
+        return np.maximum(np.array(self.noise.absolute), SMALLEST)
 
     @cached_property
     def ln(self) -> np.ndarray:

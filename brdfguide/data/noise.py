@@ -40,7 +40,8 @@ def estimated_noise(measurement: Measurement) -> NoiseModel:
     channels = len(measurement.channels)
     doubt = np.maximum(_by_channel(level, departure, parts), 0.0 if exchanged is None else exchanged.doubt)
     doubt = np.maximum(
-        _along_spectrum(doubt), max(_of_negative(measurement), _of_floor(measurement), detector_floor(measurement))
+        np.maximum(_along_spectrum(doubt), _of_negative(measurement)),
+        max(_of_floor(measurement), detector_floor(measurement)),
     )
     doubt[doubt < FAINTEST * np.max(measurement.brdf, where=measurement.usable, initial=0.0)] = 0.0
     nothing = (0.0,) * channels
@@ -137,12 +138,14 @@ def _along_spectrum(doubt) -> np.ndarray:
     return np.median(np.lib.stride_tricks.sliding_window_view(padded, SPECTRUM), axis=1)
 
 
-def _of_negative(measurement: Measurement) -> float:
-    """Absolute doubt that values below zero show by themselves; colours outside sRGB are no noise."""
-    negative = measurement.brdf[measurement.brdf < 0]
-    if len(negative) < FEW_NEGATIVE or set(measurement.channels) == set("RGB"):
-        return 0.0
-    return float(SIGMA_PER_MEDIAN * np.median(-negative))
+def _of_negative(measurement: Measurement) -> np.ndarray:
+    """Absolute doubt of each channel that values below zero show by themselves: noise about zero, or a colour outside
+    sRGB, which no law can have, so that each misses a channel by as much."""
+    parts = [measurement.brdf]
+    if set(measurement.channels) == set("RGB"):
+        parts = [column[:, None] for column in measurement.brdf.T]
+    sizes = [-part[part < 0] for part in parts]
+    return np.array([SIGMA_PER_MEDIAN * np.median(size) if len(size) >= FEW_NEGATIVE else 0.0 for size in sizes])
 
 
 def _of_floor(measurement: Measurement) -> float:

@@ -96,7 +96,7 @@ def _foretold(following: Following, ends: list[End], folds: list["_Fold"]) -> It
     read = many(layout, layout.decode_all(at), used.instrument)
     for each, fold in zip(read, folds, strict=True):
         inside = ~fold.kept
-        residuals = np.log(np.maximum(each[:, inside].T, SMALLEST)) - used.ln[inside]
+        residuals = np.log(np.maximum(each[:, inside].T, used.least)) - used.ln[inside]
         yield np.where(used.clear[inside], residuals, np.nan)
 
 

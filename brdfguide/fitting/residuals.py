@@ -7,7 +7,6 @@ import numpy as np
 
 from ..data.measurement import Measurement
 from ..models.surface import Surface
-from .objective import SMALLEST
 from .reading import THREADS, reading
 
 BLOCK = 16_384  # directions of which values, angles and logarithms fit the processor's cache together
@@ -15,7 +14,7 @@ BLOCK = 16_384  # directions of which values, angles and logarithms fit the proc
 
 def ln_residuals(surface: Surface, measurement: Measurement) -> np.ndarray:
     """ln(model/data), (samples, channels), NaN where nothing was measured or it is not clear of the dark level."""
-    ln_model = np.maximum(reading(surface, measurement.instrument), SMALLEST)
+    ln_model = np.maximum(reading(surface, measurement.instrument), measurement.least)
     np.log(ln_model, out=ln_model)
     ln_model -= measurement.ln
     if measurement.clear is not measurement.usable:
