@@ -43,6 +43,14 @@ class Readings:
     beyond: tuple[tuple[float, float], ...] = ()  # what theta_i and theta_r have beyond the digits that are read [deg]
 
     @cached_property
+    def least(self) -> list:
+        """What a law that gives less is taken at, by channel: where dim values count otherwise, the dark level's
+        doubt."""
+        if self.missed is None:
+            return [SMALLEST] * len(self.wavelengths)
+        return [max(mpf(doubt), SMALLEST) for doubt in self.doubt]
+
+    @cached_property
     def sights(self) -> list[ExactReading]:
         pairs = zip(self.angles, self.beyond or [(0.0, 0.0)] * len(self.angles), strict=True)
         return [ExactReading((i + i2, at, r + r2, to), self.solid_angle) for (i, at, r, to), (i2, r2) in pairs]
@@ -152,15 +160,15 @@ def exact_residuals(surface: ExactSurface, data: Readings) -> list[list]:
 def residuals_of(surface: ExactSurface, data: Readings, number: int) -> list:
     """The same of one direction."""
     sight, row = data.sights[number], data.ln[number]
-    return [None if ln is None else log(_seen(surface, sight, c, data.wavelengths[c])) - ln for c, ln in enumerate(row)]
+    return [None if ln is None else log(_seen(surface, sight, c, data)) - ln for c, ln in enumerate(row)]
 
 
-def _seen(surface: ExactSurface, sight: ExactReading, channel: int, wavelength):
-    """What a detector reports, SMALLEST at least."""
-    read = sight.reading(surface, channel, wavelength)
+def _seen(surface: ExactSurface, sight: ExactReading, channel: int, data: Readings):
+    """What a detector reports, `data.least` at least."""
+    read = sight.reading(surface, channel, data.wavelengths[channel])
     if surface.ends_by_rounding(sight.pair, channel, read):
         raise RoundingDecides
-    return max(read, SMALLEST)
+    return max(read, data.least[channel])
 
 
 def exact_rms(rows: list[list], share: list) -> mpf:

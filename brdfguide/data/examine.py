@@ -310,9 +310,11 @@ def _gaps(m: Measurement):
             consequence="no model is tested there",
             numbers=(("directions", count), ("from_theta_deg", float(steepest.min()))),
         )
-    partly = m.censored - count * len(m.channels)
+    doubted = np.array(smoothness.estimated_noise(m).absolute) > 0
+    absent = ~(m.usable | (np.isfinite(m.readings) & doubted))[~missing]  # where zero is in doubt, none is absent
+    partly = int(np.count_nonzero(absent))
     if partly > 0.02 * m.brdf.size:
-        worst = int(np.argmin(np.count_nonzero(m.usable, axis=0)))
+        worst = int(np.argmax(np.count_nonzero(absent, axis=0)))
         text = f"{partly} further values are missing or not positive, most in channel {m.channels[worst]}"
         yield Finding(
             "missing-values",
@@ -348,9 +350,12 @@ def _marks(m: Measurement):
         )
     negative = int(np.count_nonzero(m.brdf < 0))
     if negative:
-        why = "noise about zero" + (", or a colour outside sRGB" if set(m.channels) == set("RGB") else "")
+        colours = smoothness.outside_srgb(m)
+        why = ": noise about zero" + (", or a colour outside sRGB" if set(m.channels) == set("RGB") else "")
+        if colours:
+            why = f", most of channel {' and '.join(colours)}: a colour outside sRGB"
         part = "upper limits" if any(smoothness.estimated_noise(m).absolute) else "they take no part in a fit"
-        text = f"{negative} values are negative: {why}; {part}"
+        text = f"{negative} values are negative{why}; {part}"
         yield Finding(
             "negative-values",
             text,

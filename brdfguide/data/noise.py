@@ -25,6 +25,7 @@ PLATEAU, LEAST_PLATEAU = 0.15, 20  # share and number of values at one level, fr
 ONE_LEVEL = 1.6  # times: what counts as one level, its noise included (ours)
 BLACKEST = 2e-4  # reflectance; the blackest coatings known, of carbon nanotubes, send back some 3.5e-4
 LEAST_RANGE = 1e5  # over which values reach from there; below it, it may be a polished surface's own scatter (ours)
+_OF_ZERO = "the doubt of the instrument's zero"
 FEW_NEGATIVE = 3  # values; fewer below zero say nothing of the noise
 
 
@@ -58,11 +59,8 @@ def noise_findings(measurement: Measurement):
     worth = estimated_noise(measurement)
     if worth.relative is None and not any(worth.absolute):
         return
-    dim = (
-        f" and {_between_channels(worth.absolute)}/sr, the doubt of the instrument's zero"
-        if any(worth.absolute)
-        else ""
-    )
+    zero = "how far below zero a colour outside sRGB lies" if outside_srgb(measurement) else _OF_ZERO
+    dim = f" and {_between_channels(worth.absolute)}/sr, {zero}" if any(worth.absolute) else ""
     level = worth.relative or 0.0
     numbers = (("relative", level), ("absolute_per_sr", float(np.median(worth.absolute))))
     share = f"{100 * level:.2g} %" if level > 1e-4 else "less than 0.01 %"
@@ -70,10 +68,8 @@ def noise_findings(measurement: Measurement):
     yield Finding("noise", text, "warning" if level > 0.15 else "note", numbers=numbers)
     lost = int(np.count_nonzero(measurement.usable & (measurement.brdf < worth.limit)))
     if lost > 0.02 * measurement.brdf.size:
-        text = (
-            f"{lost} of {measurement.brdf.size} values lie below {_between_channels(worth.limit)}/sr, ten times the "
-            f"doubt of the instrument's zero: upper limits only"
-        )
+        limit = _between_channels(worth.limit)
+        text = f"{lost} of {measurement.brdf.size} values lie below {limit}/sr, ten times {zero}: upper limits only"
         consequence = "errors are counted over the others"
         yield Finding("below-dark-level", text, consequence=consequence, numbers=(("values", lost),))
 
@@ -138,14 +134,28 @@ def _along_spectrum(doubt) -> np.ndarray:
     return np.median(np.lib.stride_tricks.sliding_window_view(padded, SPECTRUM), axis=1)
 
 
+def outside_srgb(measurement: Measurement) -> list[str]:
+    """Channels red, green and blue of which most is negative: no noise about zero, but such a colour."""
+    if set(measurement.channels) != set("RGB"):
+        return []
+    shares = np.mean(measurement.brdf < 0, axis=0)
+    return [name for name, share in zip(measurement.channels, shares, strict=True) if share > 0.5]
+
+
 def _of_negative(measurement: Measurement) -> np.ndarray:
     """Absolute doubt of each channel that values below zero show by themselves: noise about zero, or a colour outside
-    sRGB, which no law can have, so that each misses a channel by as much."""
-    parts = [measurement.brdf]
-    if set(measurement.channels) == set("RGB"):
-        parts = [column[:, None] for column in measurement.brdf.T]
-    sizes = [-part[part < 0] for part in parts]
-    return np.array([SIGMA_PER_MEDIAN * np.median(size) if len(size) >= FEW_NEGATIVE else 0.0 for size in sizes])
+    sRGB, which no law can have, so that each misses the channel by as much. A few values outside sRGB show nothing."""
+    if set(measurement.channels) != set("RGB"):
+        return np.full(len(measurement.channels), _size_below_zero(measurement.brdf))
+    outside = outside_srgb(measurement)
+    columns = zip(measurement.channels, measurement.brdf.T, strict=True)
+    return np.array([_size_below_zero(values) if name in outside else 0.0 for name, values in columns])
+
+
+def _size_below_zero(values) -> float:
+    """Standard deviation, by the median, of values (...) [1/sr] below zero; 0 of next to none."""
+    negative = values[values < 0]
+    return float(SIGMA_PER_MEDIAN * np.median(-negative)) if len(negative) >= FEW_NEGATIVE else 0.0
 
 
 def _of_floor(measurement: Measurement) -> float:

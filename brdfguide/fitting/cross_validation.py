@@ -23,7 +23,7 @@ from .choosing import recommending
 from .fit import Fit, FitOptions
 from .followed import End, Following, follow
 from .layout import Layout, layout_of
-from .objective import SMALLEST, Misfit, metric
+from .objective import Misfit, metric
 from .prepared import few_channels
 from .ranked import HeldOut, LeftOut, Ranking
 from .reading import kept_of, many, reading

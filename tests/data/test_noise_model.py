@@ -6,7 +6,9 @@ import pytest
 from brdfguide import models
 from brdfguide.data import examine, formats, noise
 from brdfguide.data.measurement import Measurement
-from brdfguide.data.noise_model import NoiseModel, two_parts
+from brdfguide.data.noise_model import SIGMA_PER_MEDIAN, NoiseModel, two_parts
+from brdfguide.fitting.residuals import ln_residuals
+from brdfguide.models.surface import Surface
 from brdfguide.physics.geometry import in_plane, rows
 
 from .. import synthetic
@@ -57,10 +59,26 @@ def test_values_below_zero_are_noise_that_a_fit_looks_at():
     assert measurement.censored == 0
 
 
-def test_colours_outside_srgb_are_no_noise():
+def test_a_colour_outside_srgb_doubts_its_channel_alone():
     run = dim_run(0.01, 0.0, 3, channels=3)
-    colours = Measurement(run.geom, np.where(run.brdf < 0.003, -run.brdf, run.brdf), ("R", "G", "B"))
-    assert noise.estimated_noise(colours).absolute == (0.0, 0.0, 0.0)
+    shift = np.array([0.0, 0.0, 2 * np.median(run.brdf[:, 2])])
+    colours = Measurement(run.geom, run.brdf - shift, ("R", "G", "B"))
+    blue = colours.brdf[:, 2]
+    assert noise.estimated_noise(colours).absolute == (0.0, 0.0, SIGMA_PER_MEDIAN * np.median(-blue[blue < 0]))
+    told = {each.code: each for each in examine.examine(colours)}
+    assert "negative, most of channel B: a colour outside sRGB; upper limits" in told["negative-values"].text
+    assert "missing-values" not in told
+
+
+def test_a_law_that_gives_nothing_is_no_farther_off_than_what_nothing_tells_from_zero():
+    run = dim_run(0.01, 0.0, 3, channels=3)
+    shift = np.array([0.0, 0.0, 2 * np.median(run.brdf[:, 2])])
+    colours = examine.prepared(Measurement(run.geom, run.brdf - shift, ("R", "G", "B")))
+    dark = Surface(models.get("lambertian"), {"lambertian.albedo": np.array([0.5, 0.5, 0.0])}, colours.channels)
+    left = ln_residuals(dark, colours)[:, 2]
+    told = np.isfinite(left)
+    expected = np.log(colours.noise.absolute[2]) - colours.ln[told, 2]
+    assert told.any() and np.allclose(left[told], expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["cornell/garnet_red.brdf", "cornell/cayman.brdf", "mwir/lacquer_smooth.csv"])
