@@ -216,7 +216,7 @@ EXAMINED = {
     ),
     "missing-values": Flag("Many single values are missing or not positive.", WARNING),
     "missing-zone": Flag("Directions without a value in any channel."),
-    "negative-values": Flag("Values below zero: noise about zero, upper limits.", EITHER),
+    "negative-values": Flag("Values below zero: noise about zero or a colour outside sRGB, upper limits.", EITHER),
     "no-data-beyond-theta-i": Flag("No incidence beyond this angle: models differ there.", WARNING),
     "no-data-beyond-theta-r": Flag("No reflection beyond this angle: models differ there.", WARNING),
     "no-usable-values": Flag("No value is positive: there is nothing to fit.", ("error",)),
