@@ -51,7 +51,8 @@ def copies(answer: dict, found: Comparisons) -> None:
 
 def reflectance_errors(row: dict, place: str, found: Comparisons) -> None:
     """dF0 = 8nk/((n + 1)² + k²)² dk, where F0 stands in place of k alone; told is half the way to the farther end of
-    ln F0/(1 - F0) ± 2 dF0/(F0 (1 - F0)). Where n was fitted too both err together, which does not follow."""
+    ln F0/(1 - F0) ± 2 dF0/(F0 (1 - F0)). Where n was fitted too both err together, which does not follow, nor at F0 = 0
+    or 1."""
     for key, entry in row["parameters"].items():
         label = key.rpartition(".")[0]
         of_n, of_k = (row["parameters"].get(f"{label}.{name}") for name in "nk")
@@ -61,6 +62,8 @@ def reflectance_errors(row: dict, place: str, found: Comparisons) -> None:
         for channel, told in enumerate(_many(entry["stderr"])):
             at_n, at_k, at_error = (mpf(each[channel if len(each) > 1 else 0]) for each in (n, k, error))
             normal = ((at_n - 1) ** 2 + at_k**2) / ((at_n + 1) ** 2 + at_k**2)
+            if not 0 < normal < 1:  # nothing comes back, or all: odds have no end
+                continue
             slope = 8 * at_n * at_k / ((at_n + 1) ** 2 + at_k**2) ** 2
             times = exp(2 * slope * at_error / (normal * (1 - normal)))
             odds = normal / (1 - normal)

@@ -155,12 +155,14 @@ def _wave_unit(source, column: Column, waves, notes) -> float:
 def _decoded(source, table: Sheet, columns: list[Column], notes) -> np.ndarray:
     """Values as plain numbers: percent, decibels, logarithms and powers of ten undone."""
     found = np.empty((len(table.values), len(columns)))
+    plain = [column.place for column in columns if not column.scale and column.factor == 1]
+    highest = float(np.max(table.values[:, plain], where=np.isfinite(table.values[:, plain]), initial=0.0))
     said = set()
     for place, column in enumerate(columns):
         given = table.values[:, column.place]
         found[:, place] = DECODED[column.scale](given) * column.factor
         if not column.scale and column.factor == 1:
-            _not_logarithms(source, column, given)
+            _not_logarithms(source, column, given, highest)
         elif (column.scale, column.factor) not in said:
             said.add((column.scale, column.factor))
             notes.append(_how(column))
@@ -182,13 +184,14 @@ def _how(column: Column) -> Finding:
     return Finding("power-of-ten", f"'{column.name}': given in units of {column.factor:g}")
 
 
-def _not_logarithms(source, column: Column, given) -> None:
-    """Raises InputError where most values are negative and by no means small: noise about zero is not so."""
+def _not_logarithms(source, column: Column, given, highest: float) -> None:
+    """Raises InputError where most values are negative and by no means small beside the highest of all columns: noise
+    about zero is not so, nor a colour outside sRGB."""
     known = given[np.isfinite(given)]
     negative = known[known < 0]
     if len(known) < 4 or len(negative) < 0.5 * len(known):
         return
-    if np.median(-negative) > 0.1 * max(float(known.max()), 0.0) + 1e-3:
+    if np.median(-negative) > 0.1 * highest + 1e-3:
         raise source.error(
             f"column '{column.name[:60]}': {len(negative)} of {len(known)} values are negative, "
             f"{np.median(negative):.3g} in the middle: decibels or logarithms? Then {SAY_LOGARITHM}"

@@ -136,6 +136,12 @@ def test_unnamed_logarithms_are_refused_and_noise_about_zero_is_not(tmp_path):
     read(tmp_path, sheet("brdf", noise))
 
 
+def test_a_channel_below_zero_beside_bright_ones_is_a_colour(tmp_path):
+    blue = np.full(len(IN_PLANE), -0.01)
+    found = read(tmp_path, sheet("R", IN_PLANE + 0.3, ("G", IN_PLANE + 0.2), ("B", blue)))
+    assert np.all(found.brdf[:, 2] == -0.01)
+
+
 # --- doubts -----------------------------------------------------------------------------------------------
 
 DOUBTS = {
