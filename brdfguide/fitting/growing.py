@@ -9,7 +9,7 @@ import numpy as np
 
 from ..data.measurement import Measurement
 from ..models.candidates import candidate_label, containing
-from ..models.extensions import Extension, edges, extensions, is_metallic
+from ..models.extensions import Extension, edges, extensions, is_metallic, revived
 from ..models.surface import Surface
 from ..physics.geometry import Geometry
 from ..records import dataclass
@@ -128,6 +128,13 @@ def _tried(
         if name not in known
     }
     known |= zip(sought, search_all(tuple(sought.values()), data, options), strict=True)
+    again = {  # a lobe that ended at nothing has no slope left to follow
+        name: Sought(known[name].layout.model, Given(starts))
+        for name in sought
+        if (starts := revived(known[name].layout.model, known[name].values))
+    }
+    for name, found in zip(again, search_all(tuple(again.values()), data, options), strict=True):
+        known[name] = min(known[name], found, key=lambda each: each.rms)
     return sorted(((each, known[name]) for name, each in tried.items()), key=lambda each: each[1].rms)
 
 

@@ -18,6 +18,8 @@ from .model import Parameter, Term, counted
 # where a second lobe begins: widths of the first and of the new one, in those of the first alone; ours, after the
 # shapes that two lobes took on measured tables
 SPLITS = ((1.0, 1 / 3), (1.0, 3.0), (1.5, 1 / 3), (0.7, 4.0))
+REVIVED = (0.1, 1 / 3, 3.0, 10.0)  # widths, in those of the brightest, of a lobe that ended at nothing
+NOTHING = 1e-6  # of the brightest lobe's height
 EDGE_INDICES = (0.2, 1.0, 3.0)  # of metals, with k for the same F0
 SLOPE_INDEX = 1.5  # of a dielectric whose height is no longer n's to carry
 
@@ -105,6 +107,28 @@ def _split(longer: Composite, model: Composite, values: Mapping, law: Model) -> 
         others = {p.name: carried.get(last.key(p.name)) for p in law.parameters if new.key(p.name) not in carried}
         rest = {new.key(name): value for name, value in others.items() if value is not None}
         yield {**carried, **rest, **at}
+
+
+def revived(model: Composite, values: Mapping) -> tuple[dict, ...]:
+    """Starts with every lobe of a repeated law alive, where one of them ended at nothing: beside the brightest of its
+    kind, narrower and wider. None where none did."""
+    starts = list[dict]()
+    on_top, under = counted(model.terms)
+    for law, count in (*on_top, *under):
+        parameter, height = width_of(law), law.amplitude
+        terms = [term for term in model.terms if _is(term, law)]
+        if count < 2 or not parameter or not height or any(term.key(height) not in values for term in terms):
+            continue
+        heights = [float(np.max(values[term.key(height)])) for term in terms]
+        brightest = terms[int(np.argmax(heights))]
+        for term, size in zip(terms, heights, strict=True):
+            if size > NOTHING * max(heights):
+                continue
+            width = values[brightest.key(parameter.name)]
+            for times in REVIVED:
+                alive = {term.key(parameter.name): np.clip(width * times, parameter.low, parameter.high)}
+                starts.append({**values, **alive})
+    return tuple(starts)
 
 
 def _indices(model: Composite, values: Mapping) -> Iterator[Extension]:

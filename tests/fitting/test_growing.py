@@ -9,6 +9,7 @@ from brdfguide import models
 from brdfguide.fitting import compare, growing
 from brdfguide.fitting import fit as fitting
 from brdfguide.fitting.fit import FitOptions
+from brdfguide.fitting.job import Job, case
 from brdfguide.models import candidates
 from brdfguide.report.documents.fit import fit_document, grown_block
 from brdfguide.report.text.grown import grown_text
@@ -131,3 +132,11 @@ def test_the_path_is_told_in_json_and_in_words():
     words = grown_text(long)
     assert "a second lobe: lambertian+ggx:2" in words and "<- taken" in words and " % off" in words
     assert grown_text([]).startswith("nothing grew")
+
+
+def test_a_lobe_that_ended_at_nothing_is_looked_for_again(data):
+    found = case(data / "mwir" / "aluminium_anodised.csv", Job())
+    ranked = compare.compare(found.measurement, found.candidates, Job().options, grows=True, kind=found.kind)
+    two = next(row.fit for row in ranked.rows if row.fit.name == "ggx:2+coated:lambertian+flakes")
+    assert min(two.values["ggx.1.scale"], two.values["ggx.2.scale"]) > 0.01
+    assert ranked.rows[0].rms_ln < 0.33  # 0.37 with one of both lobes at nothing

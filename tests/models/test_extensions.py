@@ -7,7 +7,7 @@ from brdfguide import models
 from brdfguide.errors import InputError
 from brdfguide.fitting.layout import Layout
 from brdfguide.models import candidates
-from brdfguide.models.extensions import edges, extensions
+from brdfguide.models.extensions import edges, extensions, revived
 from brdfguide.physics.fresnel import f0
 from brdfguide.physics.geometry import in_plane, rows
 
@@ -149,3 +149,14 @@ def test_a_metal_is_given_an_edge_of_its_own_at_the_same_reflectance_and_never_b
     assert not list(edges(found.model, values))
     assert not list(edges(candidates.named("ggx (metal, height free)"), values))
     assert not list(edges(candidates.named("lambertian+ggx"), values))
+
+
+def test_a_lobe_that_ended_at_nothing_stands_anew_beside_the_other():
+    model = candidates.named("lambertian+ggx:2")
+    values = model.defaults() | {"ggx.1.alpha": 0.0001, "ggx.2.alpha": 0.05}
+    ended = values | {"ggx.1.scale": np.zeros(1), "ggx.2.scale": np.full(1, 0.3)}
+    starts = revived(model, ended)
+    assert np.allclose([start["ggx.1.alpha"] for start in starts], [0.005, 0.05 / 3, 0.15, 0.5])
+    assert all(start["ggx.2.alpha"] == 0.05 for start in starts)
+    assert not revived(model, ended | {"ggx.1.scale": np.full(1, 1e-3)})
+    assert not revived(candidates.named("lambertian+ggx"), candidates.named("lambertian+ggx").defaults())
