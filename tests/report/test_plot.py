@@ -265,3 +265,16 @@ def test_an_axis_of_errors_has_at_least_two_numbers(errors):
     axis = cost.plot_cost(lines).axes[0]
     low, high = axis.get_ylim()
     assert np.count_nonzero((axis.get_yticks() >= low) & (axis.get_yticks() <= high)) >= 2
+
+
+def test_names_of_thirty_models_without_times_do_not_meet():
+    lines = [
+        figure_lines.Line(f"{name} {times}", Surface(models.get(name), {}), times * error, None, True)
+        for name, (_, error) in CROWD.items()
+        for times in (1, 2)
+    ]
+    assert faults(cost.plot_cost(lines)) == []
+    fig = cost.plot_cost(lines)
+    fig.draw_without_rendering()
+    boxes = [label.get_window_extent() for label in fig.axes[0].get_yticklabels()]
+    assert len(boxes) == len(lines) > 25 and not any(a.overlaps(b) for a, b in zip(boxes, boxes[1:], strict=False))

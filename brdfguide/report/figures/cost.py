@@ -13,6 +13,7 @@ from .lobes import plain_log
 TIME = "time per sample [ns], our NumPy in batches of this file's size: not a shader's cost"
 STEP = 5  # points, between places that are tried for a name
 LETTER_PT = 7
+LEAST_ROW_MM = 3.4
 NEAR_PT, FAR_PT = 11.0, 60.0  # how far a name is from its point: beyond, a leader leads there; none leads farther
 CLEAR = 6.0  # points about its own, where a leader is not looked at
 
@@ -20,11 +21,16 @@ CLEAR = 6.0  # points about its own, where a leader is not looked at
 def plot_cost(lines: list[Line], width_mm=180, height_mm=72, time: str = TIME):
     """A figure of error against run time."""
     if not any(line.ns for line in lines):
-        height_mm = min(height_mm, 18 + 5 * len(lines))
+        height_mm = rows_height_mm(lines, height_mm)
     with style.look():
         fig = style.figure(width_mm, height_mm)
         draw_cost(fig, lines, time)
         return fig
+
+
+def rows_height_mm(lines: list[Line], usual_mm: float) -> float:
+    """Of the errors alone, one row per model: names must not touch, and few rows need less than what is usual."""
+    return min(max(usual_mm, 18 + LEAST_ROW_MM * len(lines)), 18 + 5 * len(lines))
 
 
 def timed_lines(ranking, timing: dict) -> list[Line]:

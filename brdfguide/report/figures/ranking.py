@@ -2,7 +2,7 @@
 
 from ...data.measurement import Measurement
 from . import spheres, style
-from .cost import draw_cost, plot_cost
+from .cost import draw_cost, plot_cost, rows_height_mm
 from .grain import HEIGHT_MM, draw_grain, grain_of, plot_grain
 from .lines import lines_of, shown_lines, title_of
 from .lobes import draw_lobes, plot_lobes
@@ -12,6 +12,7 @@ GRAIN_WORDS = (
     "The grain: scans under turns of the sample; the peak over facet slopes with the ellipse of the data (dashed) and "
     "of the model; the width of the lobe against the azimuth of the plane of incidence."
 )
+LOBES_MM, COST_MM = 113.0, 63.0
 TIMED_WORDS = "Error against run time. A model on the front is beaten by no other in both."
 
 
@@ -19,14 +20,12 @@ def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIG
     """Draw the ranking into `path`, a .png, .svg or .pdf file, light or dark."""
     with style.look():
         lines, grain = lines_of(ranking), grain_of(measurement)
-        if grain is None:
-            fig = style.figure(180, 176)
-            above, below = fig.subfigures(2, 1, squeeze=False, height_ratios=(1.8, 1))[:, 0]
-        else:
-            fig = style.figure(180, 176 + HEIGHT_MM)
-            parts = (113.0, HEIGHT_MM, 63.0)
-            above, middle, below = fig.subfigures(3, 1, squeeze=False, height_ratios=parts)[:, 0]
-            draw_grain(middle, grain, lines)
+        errors_mm = COST_MM if any(line.ns for line in lines) else max(COST_MM, rows_height_mm(lines, COST_MM))
+        parts = [LOBES_MM, *([] if grain is None else [HEIGHT_MM]), errors_mm]
+        fig = style.figure(180, sum(parts))
+        above, *middle, below = fig.subfigures(len(parts), 1, squeeze=False, height_ratios=parts)[:, 0]
+        if grain is not None:
+            draw_grain(middle[0], grain, lines)
         draw_lobes(above, shown_lines(lines), measurement, title_of(lines, measurement))
         draw_cost(below, lines)
         style.save(fig, path, theme)
