@@ -26,7 +26,9 @@ from .exporter import ColouredSurface, Export, Exporter, Statement, comment_line
 TILTS, DIFFERENCES, ANGLES = 64, 32, 32  # values of each table
 DIRECTIONS = 6000
 HIGHEST_DIFFERENCE = np.radians(88.0)
-DARK = 1e-6  # of the brightest value: what a Gaussian lobe has far out counts as this
+# what a Gaussian lobe has far out counts as this: of the brightest value, and 1/sr, below what is a body beside a peak
+# of a million
+DARK, DARKEST = 1e-6, 1e-4
 LOWEST_COS = 0.02  # of light and view
 ALPHA_PER_HALF_WIDTH = 1.55  # of GGX: 1/√(√2 - 1)
 NARROWER = 3.0  # times than alpha that s is
@@ -102,7 +104,7 @@ def tables_of(surface: ColouredSurface) -> Tables:
     geom = rows(Geometry(directions))
     geom = geom[(geom.cos_i[:, 0] > LOWEST_COS) & (geom.cos_r[:, 0] > LOWEST_COS)]
     both = 0.5 * (surface.rgb(geom) + surface.rgb(geom.swapped()))
-    value = np.maximum(both, DARK * both.max())
+    value = np.maximum(both, min(DARK * both.max(), DARKEST))
     return Tables.of(factored.fit_factors(factored.Columns(geom, scale), np.log(value)))
 
 

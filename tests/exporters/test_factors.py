@@ -24,6 +24,13 @@ def test_laws_of_this_form_are_held(name, most):
     assert made.statement.status == "refit" and made.statement.rms_ln < most
 
 
+@pytest.mark.parametrize("alpha", [0.01, 0.0045, 0.001])
+def test_a_body_stays_beside_a_lobe_a_million_times_brighter(alpha):
+    gloss = surface("lambertian+ggx", lambertian__albedo=0.3, ggx__alpha=alpha, ggx__n=1.5)
+    made = exporters.export("factors", gloss)
+    assert made.statement.rms_ln < 0.02 and made.statement.seen < 0.1
+
+
 def test_a_surface_that_reflects_nothing_is_refused():
     rough = surface("mirror", mirror__n=2.7, mirror__k=23.0, mirror__sigma=0.94)  # its image is all scattered away
     with pytest.raises(NoAnswer, match="reflects nothing .* nothing to write"):
