@@ -129,7 +129,7 @@ MODEL = Model(
             0.9 * pi,
             unit="rad",
             meaning="45°: mirror lobe; more: rises toward grazing; negative: back to the light",
-            starts=(0.1, 0.75, 1.0, -0.75),
+            starts=(0.1, pi / 4, 1.0, -pi / 4),
         ),
         Parameter(
             "exponent",

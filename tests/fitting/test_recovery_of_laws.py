@@ -5,6 +5,7 @@ import pytest
 
 from brdfguide import models
 from brdfguide.fitting import fit
+from brdfguide.physics.geometry import in_plane, rows
 
 from .. import synthetic
 
@@ -54,3 +55,23 @@ def test_what_made_the_data_is_found_within_three_errors_with_seed_31(expression
         miss = np.abs(np.asarray(found.values[key]) - truth[key])
         assert np.all(miss <= 3 * np.asarray(found.stderr[key])), (key, found.values[key], found.stderr[key])
         assert np.all(np.asarray(found.stderr[key]) < 0.3 * abs(truth[key])), f"{key} is not determined by these data"
+
+
+@pytest.mark.parametrize("exponent", [600.0, 3000.0, 8000.0])
+def test_a_narrow_mirror_lobe_is_found_with_seed_3(exponent):
+    beside = np.array([0.2, 0.5, 0.8, 1.2, 1.6, 2.0, 3.0, 5.0, 10.0, 20.0, 40.0])
+    incidence = np.array([[5.0], [30.0], [50.0], [65.0]])
+    theta_r = incidence + np.r_[-beside, beside]
+    kept = np.abs(theta_r) < 85
+    geom = rows(in_plane(np.broadcast_to(incidence, theta_r.shape)[kept], theta_r[kept]))
+    model = models.get("lambertian+lafortune")
+    truth = {
+        "lambertian.albedo": 0.3,
+        "lafortune.ks": 50.0,
+        "lafortune.tilt": np.pi / 4,
+        "lafortune.exponent": exponent,
+    }
+    found = fit.fit_all([model], synthetic.surface(model, geom, truth, noise=0.02, seed=3))[0]
+    assert found.rms_ln < 0.023
+    assert found.values["lafortune.tilt"] == pytest.approx(np.pi / 4, abs=1e-4)
+    assert found.values["lafortune.exponent"] == pytest.approx(exponent, rel=0.01)
