@@ -147,7 +147,7 @@ READING = {
     "wavelength-overruled": Flag("A comment names another wavelength than was asked for.", WARNING, "--wavelength-nm"),
     "wavelength-from-comment": Flag("The wavelength stands in a comment.", option="--wavelength-nm"),
     "wavelength-unit": Flag("Wavelengths without a unit: taken by their size.", option="a unit in the column's name"),
-    "wavenumbers": Flag("Wavenumbers were taken in 1/cm."),
+    "wavenumbers": Flag("Wavenumbers, frequencies or photon energies stand in place of wavelengths."),
     "zeros-missing": Flag("Exact zeros were taken as missing, not as black."),
 }
 

@@ -3,6 +3,7 @@
 from importlib import import_module
 
 from .. import conventions, formats
+from .inverse_units import INVERSE_UNITS
 from .vocabulary import (
     ANGLE_UNITS,
     CONFIDENCE,
@@ -43,7 +44,7 @@ EXAMPLES = {
     "z_r": ("wo_z",),
     "rotation": ("sample rotation", "psi"),
     "wavelength": ("lambda_nm", "wavelength [um]", "λ / nm"),
-    "wavenumber": ("wavenumber (cm-1)",),
+    "wavenumber": ("wavenumber (cm-1)", "frequency [THz]", "photon energy (eV)"),
     "value": ("BRDF [1/sr]", "f_r", "BSDF 405 nm (1/sr)", "reflectance factor [%]", "BRDF (dB)", "550nm", "red"),
     "stderr": ("stderr_450nm", "u(BSDF) 405 nm", "uncertainty (k=2) %", "relative uncertainty [%]"),
 }
@@ -79,8 +80,15 @@ apart which are repeated with other values, is named, and one of the last two op
 have no effect on a file is refused.
 
 Titles and comments count too: `theta_i: 45`, `AOI = 45 deg`, `wavelength_nm: 633`, `lambda = 532 nm`,
-`2-5.7 um band`, `quantity: brf`, `scale: 0.001`, `angles in radians`, `sample rotated clockwise`, and a quantity by its
-words where the values' name has none (`BRF values of ...`).
+`wavenumber = 1000 cm-1`, `2-5.7 um band`, `azimuth: 90 deg`, `quantity: brf`, `scale: 0.001`, `BRDF in 1e-3 sr^-1`,
+`angles in radians`, `sample rotated clockwise`, and a quantity by its words where the values' name has none (`BRF values
+of ...`). Lines between the rows that state such a thing again, or a sample, hold for the rows below them:
+`# theta_i = 30`, `wavelength: 650 nm`, `# sample: white`.
+
+A column that marks rows (`mask`, `valid`, `flag`, `quality`) is asked about. `999` and the like, or all bits of a
+counter, several times and far above all other values, are marks for missing, as `-999`, `n.a.` and empty cells are. A
+function or a factor in a name (`sqrt(BRDF)`, `BRDF x 10^3`) is not undone: such a column is refused, the factor with
+`--scale` taken.
 """
 ANGLES = (  # columns, and what they mean
     (
@@ -183,7 +191,9 @@ def _units() -> str:
         (f"`{unit}`", f"{degrees:.9g} degrees", _listed(text.split())) for unit, (degrees, text) in ANGLE_UNITS.items()
     ]
     lengths = [(f"`{unit}`", f"{um:g} µm", _listed(text.split())) for unit, (um, text) in LENGTH_UNITS.items()]
-    lengths.append(("`1/cm`", "10000 µm divided by it", _listed(["cm-1", "cm^-1"])))
+    lengths += [
+        (f"`{unit}`", f"{um:.7g} µm divided by it", _listed(text.split())) for unit, (um, text) in INVERSE_UNITS.items()
+    ]
     scales = [(f"`{scale}`", UNDONE[scale], _listed(text.split())) for scale, text in SCALES.items()]
     scales.append(
         (

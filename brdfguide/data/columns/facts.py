@@ -3,6 +3,7 @@
 from functools import lru_cache
 
 from ...records import dataclass
+from .inverse_units import inverse_unit
 from .tokens import Token, tokens
 from .turning_sense import taken_sense
 from .vocabulary import (
@@ -19,13 +20,13 @@ from .vocabulary import (
     SPELT,
     SPELT_ALONE,
     STERADIAN,
-    WAVENUMBER_UNITS,
     senses_of,
 )
 
 SAYS_IT_IS = frozenset(":=@")  # between a word and its number
 TIMES = frozenset(["*", "x", "times", "by"])
 OF_VALUES = frozenset(["value", "doubt", "filler", "proportional", "expanded"])
+WAVES = {"wavelength", "wavenumber", "frequency"}
 ARGUMENTS = frozenset(["polar", "azimuth", "light", "detector", "wavelength"])
 LONGEST_PHRASE = max(len(phrase) for phrase in QUANTITY_OF)
 FIRST_OF_QUANTITY = frozenset(phrase[0] for phrase in QUANTITY_OF)
@@ -94,6 +95,8 @@ def _of_a_value(word: str) -> bool:
 def bare_wavelength(text: str) -> float | None:
     """Micrometres of a number without unit: hundreds and thousands are nm, a few with decimals um."""
     number = float(text.replace(",", "."))
+    if "e" in text.lower():
+        return None
     if 100 <= number <= 20_000:
         return number / 1000
     return number if 0.1 <= number <= 30 and not text.isdigit() else None
@@ -170,13 +173,14 @@ class _Name:
         place = next((place for place, token in enumerate(self.left) if token.text in STERADIAN), None)
         if place is None:
             return {}
+        small = {"factor": STERADIAN[self.text(place)]} if STERADIAN[self.text(place)] != 1 else {}
         depth, start, end = self.left[place].depth, place, place + 1
         for sign in ("^", "-", "1"):
             end += self.text(end) == sign
         while start and self.text(start - 1) in ("/", "per", "1", "inverse", "inv", "in"):
             start -= 1
         self.take(start, end - start)
-        if depth and self.text(start - 1).startswith("1e") and self.left[start - 1].depth == depth:
+        if start and depth == self.left[start - 1].depth > 0 and self.left[start - 1].is_power_of_ten:
             factor = self.left[start - 1].number
             self.take(start - 1)
             return {"per_sr": True} | ({"factor": factor} if 0 < factor < float("inf") else {})
@@ -186,7 +190,7 @@ class _Name:
             if len(texts) == len(form) and texts[:-1] == form[:-1] and texts[-1].isdigit() and len(texts[-1]) < 3:
                 self.take(start - len(form), len(form))
                 return {"per_sr": True, "factor": 10.0 ** (-int(texts[-1]) if "-" in form else int(texts[-1]))}
-        return {"per_sr": True}
+        return {"per_sr": True} | small
 
     def _mueller(self) -> dict:
         """`f_r11`, the first element of a Mueller matrix, is the BRDF; the others are not."""
@@ -217,9 +221,11 @@ class _Name:
         ranges = self.text(end) in ("-", "to") and end + 1 < len(self.left) and self.left[end + 1].is_number
         if ranges and self.text(end + 2) in LENGTH_UNIT_OF:  # a band: its middle
             number, end = 0.5 * (number + self.left[end + 1].number), end + 2
-        start = self._words_before(place, {"wavelength"})
-        unit = LENGTH_UNIT_OF.get(self.text(end))
-        if unit is not None:
+        unit, inverse = LENGTH_UNIT_OF.get(self.text(end)), inverse_unit(self.left, end)
+        start = self._words_before(place, WAVES if inverse else {"wavelength"})
+        if inverse is not None and (um := inverse.um(number)):
+            found["um"], end = um, inverse.end
+        elif unit is not None:
             found["um"], end = number * LENGTH_UNITS[unit][0], end + 1
         elif start == place or self.text(end) in ANGLE_UNIT_OF:
             return None
@@ -269,8 +275,11 @@ class _Name:
         if len(numbers) != 1 or self.text(numbers[0] - 1) in ("*", "^", "+", "-"):
             return {}
         bare = self.text(numbers[0])
+        if self.text(numbers[0] - 1) == "/" and self.left[numbers[0]].is_power_of_ten:
+            return {}
+        depth = self.left[numbers[0]].depth
         self.take(numbers[0])
-        return {"bare": bare}
+        return {} if bare == "1" and depth else {"bare": bare}  # the unit of what has none
 
     # --- units, scales and colours ------------------------------------------------------------------------
 
@@ -278,9 +287,9 @@ class _Name:
         """The unit of an angle or a wavelength, with the `in` or `/` before it."""
         for place in range(len(self.left) - 1, -1, -1):
             token = self.left[place]
-            if token.text in WAVENUMBER_UNITS and self.text(place + 1) in ("-", "^"):
-                self.take(place, 3 if self.text(place + 1) == "-" else 4)
-                return {"unit": "1/cm"}
+            if inverse := inverse_unit(self.left, place):
+                self.take(place, inverse.end - place)
+                return {"unit": inverse.unit}
             unit = ANGLE_UNIT_OF.get(token.text) or LENGTH_UNIT_OF.get(token.text)
             as_unit = place and (token.depth or place == len(self.left) - 1)
             if unit is None or token.text in ONLY_AS_UNIT and not as_unit:
@@ -316,6 +325,8 @@ class _Name:
             before = place - 2 if self.text(place - 1) == "*" else place - 1
             if scale == "log10" and before >= 0 and self.text(before) == "10":
                 scale, first = "dB", before
+            if self.text(0) == "-" and first == 1:
+                return {}  # a negative one is not undone
             self.take(first, end - first)
             return {"scale": scale}
         return {}

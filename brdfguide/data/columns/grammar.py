@@ -9,8 +9,19 @@ from functools import lru_cache
 from itertools import permutations
 
 from .facts import Column, facts
+from .inverse_units import INVERSE_UNITS
 from .tokens import Token
-from .vocabulary import ANGLE_UNITS, LENGTH_UNITS, NEVER_ALONE, RULES, SCATTERED, WEAK_RULES, NameRule, senses_of
+from .vocabulary import (
+    ANGLE_UNIT_OF,
+    ANGLE_UNITS,
+    LENGTH_UNITS,
+    NEVER_ALONE,
+    RULES,
+    SCATTERED,
+    WEAK_RULES,
+    NameRule,
+    senses_of,
+)
 
 MOST_WORDS = 10  # of a name, beside its numbers and units; rules account for no more
 HARMLESS = frozenset("/-:;,=@#|<>~'\"?&!")  # signs that say nothing where they are left over
@@ -45,17 +56,22 @@ def understood(name: str, place: int = 0, colours: bool = True) -> Column:
         return replace(column, role="value", vague=column.quantity is None and (column.vague or valued))
     if not named and (rule := _weak_rule(words, senses)):
         return _in_its_unit(replace(column, role=rule.role, weak=True))
-    return replace(column, why=_why(words, senses))
+    return replace(column, why=_why(words, senses, column.unit))
 
 
 def _in_its_unit(column: Column) -> Column:
     """The column, unless its unit is none that its role can have."""
     of_length = column.unit in LENGTH_UNITS
-    if column.role in ("wavelength", "wavenumber") or column.role == "stderr":
-        wrong = column.role == "wavelength" and column.unit in ANGLE_UNITS
+    if column.role == "wavenumber" and column.form:  # a frequency or an energy may be of anything
+        wrong = column.unit not in INVERSE_UNITS
+    elif column.role in ("wavelength", "wavenumber", "stderr"):
+        wrong = column.role == "wavelength" and (column.unit in ANGLE_UNITS or column.unit in INVERSE_UNITS)
+        wrong = wrong or column.role == "wavenumber" and (column.unit in ANGLE_UNITS or of_length)
     else:
-        wrong = of_length or column.unit == "1/cm"
-    return replace(column, role=None, weak=False, why=f"{column.unit} is no unit of {column.role}") if wrong else column
+        wrong = of_length or column.unit in INVERSE_UNITS
+    what = "a photon's frequency or energy" if column.form == "in its unit" else column.role
+    why = f"{column.unit} is no unit of {what}" if column.unit else f"without a unit of {what}"
+    return replace(column, role=None, weak=False, why=why) if wrong else column
 
 
 def _difference(left: list[Token]) -> str | None:
@@ -113,11 +129,13 @@ def _accounts(rule: NameRule, senses) -> bool:
     return False
 
 
-def _why(words, senses) -> str:
+def _why(words, senses, column_unit: str | None) -> str:
     """Why a name has no role, in a few words."""
     if not words:
         return "its name says nothing"
     strange = [word for word, each in zip(words, senses, strict=True) if not each]
+    if strange and column_unit and strange[0] in ANGLE_UNIT_OF:
+        return f"its name says two units, {ANGLE_UNIT_OF[strange[0]]} and {column_unit}"
     if strange:
         return f"'{strange[0][:30]}' is not understood"
     if any("doubt" in each for each in senses):

@@ -3,16 +3,19 @@
 from itertools import pairwise
 
 from ...records import dataclass
-from .facts import spelt_out
+from .facts import bare_wavelength, facts, spelt_out
 from .grammar import understood
+from .inverse_units import InverseUnit, inverse_unit
 from .tokens import Token
 from .turning_sense import taken_sense
-from .vocabulary import ANGLE_UNIT_OF, LENGTH_UNIT_OF, LENGTH_UNITS, SPOKEN_OF, senses_of
+from .vocabulary import ANGLE_UNIT_OF, LENGTH_UNIT_OF, LENGTH_UNITS, SPOKEN_OF, STERADIAN, senses_of, word_set
 
 MOST_LINES = 2000  # of titles and comments; data do not begin later
 BETWEEN = 5  # tokens that may stand between `wavelength` and its number
 LONGEST_SPOKEN = max(len(phrase) for phrase in SPOKEN_OF)
 WORDS_OF_AN_ANGLE = 4
+ABOUT_VALUES = word_set("unit units value values data")
+SMALL_WORDS = word_set("in of is are the all given")
 
 
 @dataclass(frozen=True)
@@ -26,11 +29,16 @@ class Wavelength:
 def wavelength_in(lines) -> Wavelength | None:
     """`wavelength_nm: 633`, `Wavelength (nm) = 550`, `lambda = 532 nm`; then `2-5.7 um band`; then a lone `650 nm`."""
     rows = [spelt_out(line) for line in lines[:MOST_LINES]]
-    for find, said_as in ((_after_the_word, "wavelength"), (_band, "middle of the band"), (_alone, "wavelength")):
+    for find, said_as in (
+        (_after_the_word, "wavelength"),
+        (_after_another, "wavelength"),
+        (_band, "middle of the band"),
+        (_alone, "wavelength"),
+    ):
         for place, row in enumerate(rows):
             um = find(row)
             if um is not None:
-                return Wavelength(um, said_as, place, find is _after_the_word)
+                return Wavelength(um, said_as, place, find in (_after_the_word, _after_another))
     return None
 
 
@@ -48,10 +56,28 @@ def _after_the_word(row: list[Token]) -> float | None:
                 unit = LENGTH_UNIT_OF.get(after, unit)
                 if unit:
                     return each.number * LENGTH_UNITS[unit][0]
+                if not after and token.text not in ("lambda", "lam"):  # lambda = 3 may be anything
+                    return bare_wavelength(each.text)
                 break
             unit = LENGTH_UNIT_OF.get(each.text, unit)
             if each.is_word and not (each.text in LENGTH_UNIT_OF or senses_of(each.text) & {"wavelength", "filler"}):
                 break
+    return None
+
+
+def _after_another(row: list[Token]) -> float | None:
+    """`wavenumber = 1000 cm-1`, `frequency: 474 THz`; a wavenumber without unit is in 1/cm."""
+    for place, token in enumerate(row):
+        senses = senses_of(token.text)
+        if not senses & {"wavenumber", "frequency"}:
+            continue
+        for at in range(place + 1, min(place + 1 + BETWEEN, len(row))):
+            if not row[at].is_number or row[at - 1].text in ("-", "^"):
+                continue
+            unit = inverse_unit(row, at + 1)
+            if unit is None and "wavenumber" in senses and at + 1 == len(row):
+                unit = InverseUnit("1/cm", at, at)
+            return unit.um(row[at].number) if unit else None
     return None
 
 
@@ -82,15 +108,32 @@ def incidence_in(lines) -> float | None:
                 continue
             if at + 1 < len(row) and ANGLE_UNIT_OF.get(row[at + 1].text) != "deg":
                 continue
-            if _names_the_incidence(row[:place]):
+            if "theta_i" in _angles_named(row[:place]):
                 return sign * row[at].number
     return None
 
 
-def _names_the_incidence(before: list[Token]) -> bool:
+def angles_of_detector_in(lines) -> dict[str, float]:
+    """`phi: 90 deg`, `azimuth = 45`, `theta_r: 30` and nothing more -> the one angle [deg] that each role has."""
+    found: dict[str, set[float]] = {}
+    for line in lines[:MOST_LINES]:
+        row = spelt_out(line)
+        place = next((place for place, token in enumerate(row) if token.text in (":", "=")), len(row))
+        said = row[place + 1 :]
+        sign = -1.0 if said and said[0].text == "-" else 1.0
+        said = said[1:] if said and said[0].text in ("-", "+") else said
+        plain = len(said) == 1 or len(said) == 2 and ANGLE_UNIT_OF.get(said[1].text) == "deg"
+        if plain and said[0].is_number:
+            whole = understood(" ".join(token.text for token in row[:place] if token.text not in ANGLE_UNIT_OF))
+            if whole.role in ("theta_r", "dphi", "phi_r") and not whole.form:
+                found.setdefault(whole.role, set()).add(sign * said[0].number)
+    return {role: angles.pop() for role, angles in found.items() if len(angles) == 1}
+
+
+def _angles_named(before: list[Token]) -> set[str | None]:
     words = [token.text for token in before if token.is_word and token.text not in ANGLE_UNIT_OF][-WORDS_OF_AN_ANGLE:]
     tails = (" ".join(words[start:]) for start in range(len(words)))
-    return any(column.role == "theta_i" and not column.form for column in map(understood, tails))
+    return {column.role for column in map(understood, tails) if not column.form}
 
 
 def quantity_stated(lines) -> str | None:
@@ -144,3 +187,26 @@ def scale_in(lines) -> float | None:
         if said and row[2].is_number and row[2].number > 0:
             return row[2].number
     return None
+
+
+def unit_of_values_in(lines) -> float | None:
+    """`BRDF in 10^-3 sr^-1`, `units: 1e-3/sr`, `all values in percent`: what values whose names have no unit are in."""
+    found = set()
+    for line in lines[:MOST_LINES]:
+        column, left = facts(f"({line})", colours=False)
+        words = {token.text for token in left if token.is_word}
+        about = column.quantity is not None or column.vague or words & ABOUT_VALUES
+        if not about or not words <= ABOUT_VALUES | SMALL_WORDS or any(token.is_number for token in left):
+            continue
+        if column.per_sr and column.factor != 1 and _is_inverse(line):
+            found.add(column.factor)
+        elif column.scale == "%" and not column.per_sr and not any(token.is_number for token in spelt_out(line)):
+            found.add(0.01)
+    return found.pop() if len(found) == 1 else None
+
+
+def _is_inverse(line: str) -> bool:
+    """Whether a unit is one over steradians, and not a solid angle."""
+    texts = [token.text for token in spelt_out(line)]
+    places = [place for place, text in enumerate(texts) if text in STERADIAN]
+    return any(texts[place - 1] in ("/", "per") or texts[place + 1 : place + 2] in (["-"], ["^"]) for place in places)

@@ -48,6 +48,11 @@ class Token:
         return self.text[0].isalpha()
 
     @property
+    def is_power_of_ten(self) -> bool:
+        """Whether it is 10, 100, 1000, or written as 1e-3."""
+        return self.text.startswith("1e") or len(self.text) > 1 and self.text[0] == "1" and not self.text[1:].strip("0")
+
+    @property
     def number(self) -> float:
         return float(self.text.replace(",", "."))
 

@@ -6,6 +6,7 @@
 from math import pi
 
 from ...records import dataclass
+from .inverse_units import BY_WORD
 
 
 def word_set(text: str) -> frozenset[str]:
@@ -48,6 +49,7 @@ SENSES = {
     "z": "z",
     "wavelength": "wavelength wavelengths wavelen wvl wl wave lambda lam",
     "wavenumber": "wavenumber wavenumbers",
+    "frequency": "frequency freq photon energy",
     "doubt": (
         "u unc uncertainty uncertainties uncert stderr stderror se std stdev stddev sd sigma error err sem delta d"
     ),
@@ -154,7 +156,7 @@ ROLES = {
     "z_r": "component of the direction to the detector, along the normal",
     "rotation": "rotation of the sample about its normal",
     "wavelength": "wavelength of a row",
-    "wavenumber": "inverse wavelength of a row",
+    "wavenumber": "inverse wavelength of a row, or its frequency or photon energy",
     "value": "what was measured, of all light or of a channel",
     "stderr": "its doubt",
 }
@@ -167,7 +169,7 @@ class NameRule:
     role: str
     needs: tuple[str, ...]
     may: tuple[str, ...] = ()
-    form: str = ""  # how the column gives the angle: elevation, cos, sin
+    form: str = ""  # how the column gives the angle: elevation, cos, sin; or that it counts in its unit alone
 
 
 # In this order: the first rule that accounts for every word of a name is its reading.
@@ -201,6 +203,7 @@ RULES = (
     NameRule("z_r", ("detector", "z")),
     NameRule("wavelength", ("wavelength",), ("filler", "value")),
     NameRule("wavenumber", ("wavenumber",), ("filler", "value")),
+    NameRule("wavenumber", ("frequency",), ("frequency", "filler", "value"), form="in its unit"),
     NameRule("stderr", ("doubt",), ("doubt", "expanded", "proportional", "value", "filler")),
     NameRule("stderr", ("expanded/proportional", "doubt"), ("doubt", "value", "filler")),
 )
@@ -316,7 +319,6 @@ LENGTH_UNITS = {
     "m": (1e6, "m meter meters metre metres"),
 }
 ONLY_AS_UNIT = word_set("m mm a")  # read as units behind a number, in brackets or at the end alone
-WAVENUMBER_UNITS = ("cm",)  # as an inverse: 1e4 divided by it is in micrometres
 # form of values -> how it is written
 SCALES = {
     "%": "% percent pct",
@@ -324,7 +326,8 @@ SCALES = {
     "log10": "log10 log lg",
     "ln": "ln",
 }
-STERADIAN = word_set("sr steradian steradians ster")
+# unit of solid angles -> how many of them one steradian has
+STERADIAN = {**dict.fromkeys(word_set("sr steradian steradians ster"), 1.0), "msr": 1e3, "μsr": 1e6, "usr": 1e6}
 CONFIDENCE = {68.0: 1.0, 95.0: 1.96, 99.0: 2.576}  # percent -> coverage factor of a normal distribution
 
 
@@ -352,7 +355,7 @@ SPOKEN_OF = {tuple(phrase.split()): name for name, each in QUANTITIES.items() fo
 QUANTITY_WORDS = frozenset(word for phrase in QUANTITY_OF for word in phrase if len(word) > 1 or len(phrase) == 1)
 KNOWN = frozenset(
     {*SENSES_OF, *SPELT, *SPELT_ALONE, *ANGLE_UNIT_OF, *LENGTH_UNIT_OF, *SCALE_OF, *STERADIAN, *COLOURS}
-    | {*SENSES_OF_TURNING, *AGAINST, *QUANTITY_WORDS, "pi", "per", "coverage", "factor"}
+    | {*SENSES_OF_TURNING, *AGAINST, *QUANTITY_WORDS, *BY_WORD, "pi", "per", "coverage", "factor"}
 )
 
 

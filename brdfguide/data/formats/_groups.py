@@ -6,17 +6,23 @@ from ...errors import BrdfguideError, InputError, NoAnswer, choices
 from ...finding import Finding
 from ..columns.facts import Column, facts, spelt_out
 from ..columns.vocabulary import COLOURS, word_set
+from ._cells import is_number
 from ._roles import first_names
-from ._sheet import Sheet, is_number
+from ._sheet import Sheet
 from .format import Source
 
 MOST_GROUPS = 50  # a column with more different values names no groups
 UNEQUAL = 0.15  # rms of ln over repeated directions beyond which they are not one surface's
 TOLD_APART = 0.05  # the same where a column tells them apart that does not merely count runs
 LEAST_REPEATS = 4
+MOST_MARKS = 10  # different values of a column that marks rows as good or bad
 LABELS = word_set(
     "sample samples specimen material coating paint colour color side face piece panel part tile pol polarisation "
     "polarization polariser polarizer band filter batch lot"
+)
+MARKS_ROWS = word_set(
+    "mask masked valid invalid flag flags flagged quality qc outlier outliers reject rejected exclude excluded "
+    "saturated saturation bad good usable ok keep"
 )
 OF_A_REPEAT = word_set("run scan repeat repetition rep cycle no number nr index id count shot frame")
 OF_THE_RUN = word_set(
@@ -61,6 +67,8 @@ def told_apart(source: Source, table: Sheet, columns, angles, wavelength, values
     unequal = repeats >= LEAST_REPEATS and spread >= UNEQUAL
     for column in left:
         groups = _groups(table, column)
+        if groups and _words_of(column) & MARKS_ROWS and len(groups) <= MOST_MARKS:
+            raise _choose_marked(source, column, groups)
         if groups and _is_label(table, column):
             names = f"the column '{column.name[:40]}' names {len(groups)} groups"
             raise _choose(source, column, groups, names, NoAnswer if unequal else InputError)
@@ -171,6 +179,14 @@ def _varies_within(row, cells) -> bool:
     number = {cell: place for place, cell in enumerate(dict.fromkeys(cells))}
     both = np.unique(np.column_stack([row, [number[cell] for cell in cells]]), axis=0)
     return len(both) - len(np.unique(row)) > 0.5 * (len(row) - len(np.unique(row)))
+
+
+def _choose_marked(source: Source, column: Column, groups: list[str]) -> InputError:
+    name = column.name if " " not in column.name else f'"{column.name}"'
+    return InputError(
+        f"{source.name}: the column '{column.name[:40]}' marks rows ({first_names(groups)}), and which are good is not "
+        f"said: take some with --select {name}={groups[0]}, or all with --columns ignore={name}"
+    )
 
 
 def _choose(source: Source, column: Column, groups: list[str], sentence: str, kind: type[BrdfguideError]):

@@ -40,8 +40,11 @@ def measurement_of(
     given = values.left
     notes += _apart(source, table, given, found, values)
     notes += _roles.ignored(given.columns)
-    notes += given.findings if values.by_constant else ()
+    notes += (*given.findings, *(given.of_wavelength if values.by_constant else ()))
     notes.insert(0, _read(given, found))
+    if table.sections:
+        names = " and ".join(f"'{name[:40]}'" for name in table.sections)
+        notes.insert(1, Finding("columns-read", f"lines between the rows give {names} of those below"))
     theta_i, phi_i, theta_r, phi_r = values.angles
     result = measurement(
         source,
@@ -59,6 +62,8 @@ def measurement_of(
     if options.wavelength_nm is not None:
         result = result.noting(*overruled(prose.wavelength_in(table.comments), options.wavelength_nm))
     factor = prose.scale_in(table.comments)
+    if factor is None and all(not column.scale and column.factor == 1 for column in given.all("value")):
+        factor = prose.unit_of_values_in(table.comments)
     if factor not in (None, 1.0) and options.scale is None:
         text = f"the comments state a scale of {factor:g}: values multiplied by it"
         stderr = None if result.stderr is None else result.stderr * factor

@@ -11,10 +11,12 @@ from ..columns import prose
 from ..columns.facts import Column, facts
 from ..columns.grammar import understood
 from ..columns.header import by_name, settled
+from ..columns.undone import FACTOR, not_undone
 from . import _options
 from ._sheet import Sheet
 from .format import Options, Source, wavelength_found
 
+OTHER_WAYS = {"from_mirror", "beta_from_mirror", "beta_r", "theta_h", "x_r", "phase", "rotation"}  # to say directions
 SHOWN = 6  # names in a sentence
 
 
@@ -25,6 +27,7 @@ class Assigned:
     columns: tuple[Column, ...]
     constants: dict[str, float]  # angles [deg], wavelength [µm]
     findings: tuple[Finding, ...] = ()
+    of_wavelength: tuple[Finding, ...] = ()  # what is said of the wavelength for the whole table
 
     def one(self, role: str) -> Column | None:
         return next((column for column in self.columns if column.role == role), None)
@@ -50,14 +53,37 @@ def mapped(table: Sheet, options: Options, source: Source) -> list[Column]:
         for name, found in zip(names, places, strict=True):
             if found is None:
                 raise choices(f"column in {source.name}", name, table.names)
+        _check_undone(role, names, options, source)
         columns = _given(columns, role, places, "--columns names another")
     return settled(columns)
+
+
+def _check_undone(role: str, names: tuple[str, ...], options: Options, source: Source) -> None:
+    """Raises InputError for a column that --columns gives and whose name says that its numbers are not plain ones."""
+    for name in names if role not in ("ignore", "wavelength") else ():
+        done = not_undone(name)
+        if done == FACTOR and options.scale is None:
+            raise source.error(
+                f"the name '{name[:60]}' has a factor, which may mean either way: say with --scale, such as 0.001 or "
+                f"1000, what its values are to be multiplied by"
+            )
+        if done not in ("", FACTOR):
+            raise source.error(
+                f"--columns {role}={name[:60]}: its name says '{done}', which is not undone; wanted a column of plain "
+                f"values"
+            )
 
 
 def assigned(table: Sheet, columns: list[Column], options: Options, source: Source) -> Assigned:
     """Raises InputError for two columns of one role."""
     constants, notes = _from_comments(table, options, source)
     mapping = _mapping(options)
+    detector = _detector_in_comments(table, {column.role for column in columns} | set(mapping))
+    constants |= detector
+    of_angles = [
+        Finding("columns-read", f"the text above the rows gives {role} = {angle:g} degrees for all")
+        for role, angle in detector.items()
+    ]
     for role, names in mapping.items():
         constants.pop(role, None)
         number = _constant(role, names, table)
@@ -66,7 +92,7 @@ def assigned(table: Sheet, columns: list[Column], options: Options, source: Sour
             if role == "wavelength":
                 text = f"wavelength {1000 * number:g} nm, as --columns says"
                 notes = [Finding("wavelength-by-option", text)]
-    return Assigned(_unique(columns, set(mapping), source), constants, tuple(notes))
+    return Assigned(_unique(columns, set(mapping), source), constants, tuple(of_angles), tuple(notes))
 
 
 def _contradicted(columns, role: str, text: str, table: Sheet, source: Source) -> None:
@@ -92,17 +118,24 @@ def _constant(role: str, names: tuple[str, ...], table: Sheet) -> float | None:
 
 def missing(role: str, table: Sheet, source: Source) -> InputError:
     """The error for a column that is not there, with the nearest name that is."""
-    lower = [name.lower() for name in table.names]
+    free = [name for name in table.names if understood(name).role is None]
+    lower = [name.lower() for name in free]
     near = nearest_words(role, lower, 1, 0.4)
-    hint = f"; is it '{table.names[lower.index(near[0])][:40]}'?" if near else "."
+    hint = _is_it(free[lower.index(near[0])]) if near else "."
     if role == "brdf":
         speaking = [name for name in table.names if facts(name)[0].quantity and not understood(name).role]
-        hint = f"; is it '{speaking[0][:40]}'?" if speaking else hint
-    constant = f" or, if it is one for all, --columns {role}=30" if role in ("theta_i", "phi_d") else ""
+        hint = _is_it(speaking[0]) if speaking else hint
+    constant = f" or, if it is one for all, --columns {role}=30" if role in ("theta_i", "theta_r", "phi_d") else ""
     return source.error(
         f"no column for {role}{hint} Columns found: {first_names(table.names)}; say which with --columns "
         f"{role}=NAME{constant}"
     )
+
+
+def _is_it(name: str) -> str:
+    """The question whether a column is the one that is missing, and why it was not taken for it."""
+    why = understood(name).why
+    return f"; is it '{name[:40]}'{f' ({why})' * bool(why)}?"
 
 
 def first_names(names: list[str], quoted: bool = False) -> str:
@@ -165,6 +198,20 @@ def _from_comments(table: Sheet, options: Options, source: Source):
     if um is not None:
         found["wavelength"] = um
     return found, notes
+
+
+def _detector_in_comments(table: Sheet, roles: set[str | None]) -> dict[str, float]:
+    """The one zenith or azimuth [deg] of the detector that comments state, where no column tells it otherwise.
+
+    A scan in the plane of incidence shows its mirror side: 0 and 180 are not needed, and mean different things.
+    """
+    if roles & OTHER_WAYS:
+        return {}
+    found = prose.angles_of_detector_in(table.comments)
+    azimuths = {role: angle for role, angle in found.items() if role != "theta_r" and angle % 180}
+    if "theta_r" in roles:
+        return azimuths if len(azimuths) == 1 and not roles & {"dphi", "phi_d", "phi_r"} else {}
+    return {role: angle for role, angle in found.items() if role == "theta_r"}
 
 
 def _unique(columns: list[Column], given: set[str], source: Source) -> tuple[Column, ...]:

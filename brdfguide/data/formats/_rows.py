@@ -9,11 +9,13 @@ from ..blocks import STREAM, Blocks
 from ..measurement import Measurement
 from . import _open
 from ._parts import check_alike, decisions
+from ._sections import statements
 from ._sheet import COMMENTS
 from .format import Source, holds_number
 
 PIECE = 2**22  # bytes of rows that are one block
 MOST_OF_A_HEAD = 2**16  # bytes: comments and names
+NO_ROW = frozenset(bytes([each]) for each in b"#%!/;" + bytes(range(65, 91)) + bytes(range(97, 123)))
 Read = Callable[[Source], Measurement]
 
 
@@ -53,10 +55,23 @@ def _pieces(path, name: str) -> Iterator[tuple[bytes, bytes, int]]:
             rows, end, new = (rest + piece).rpartition(b"\n")
             rest = new
             if rows:
+                _check_sections(name, rows, line)
                 yield head, rows + end, line
                 line += rows.count(b"\n") + 1
         if rest.strip():
+            _check_sections(name, rest, line)
             yield head, rest + b"\n", line
+
+
+def _check_sections(name: str, rows: bytes, line: int) -> None:
+    """Raises InputError where a line between the rows may state what holds for those below."""
+    for place, text in enumerate(rows.split(b"\n")):
+        if text[:1] in NO_ROW and statements(text.decode("latin-1").lstrip("#%!/; \t")):
+            shown = text.decode("latin-1").strip()[:60]
+            raise InputError(
+                f"{name}, line {line + place}: '{shown}' between the rows of a table that is read block by block; "
+                f"wanted a column that says it on each row"
+            )
 
 
 def _head(stream, name: str) -> tuple[bytes, bytes]:

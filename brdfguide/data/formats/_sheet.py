@@ -1,32 +1,16 @@
 """A text table as a header and numbers, whatever separates its cells; errors point at line and column."""
 
+from collections.abc import Callable
 from dataclasses import field, replace
 
 import numpy as np
 
 from ...records import dataclass
 from ..columns.facts import facts
-from .format import Source, holds_number
+from ._cells import MISSING, cells_of, check_thousands, column_of, dotted, is_number, plain_row
+from .format import Source
 
 COMMENTS = ("#", "%", "//", "!")
-MISSING = {
-    "",
-    "nan",
-    "na",
-    "n/a",
-    "none",
-    "null",
-    "-",
-    "--",
-    "---",
-    "nd",
-    "n.d.",
-    "*",
-    "#n/a",
-    "#value!",
-    "#div/0!",
-    "#num!",
-}
 # delimiter and decimal mark, likeliest first; None is any white space
 STYLES = (
     ("\t", "."),
@@ -38,8 +22,10 @@ STYLES = (
     (";", ","),
     (None, ","),
     ("|", ","),
+    (",", ","),  # cells in quotes
 )
 DIGITS = frozenset("0123456789")
+A_NUMBER = DIGITS | set("-+.")  # what one begins with
 LOOKED_AT = 40  # data lines that decide the style
 
 
@@ -52,6 +38,7 @@ class Sheet:
     notes: list[str]  # what was skipped
     comment_lines: list[int] = field(default_factory=list)  # number of the line that each comment stands in
     texts: dict[int, list[str]] = field(default_factory=dict)  # of a column with a cell that is no number: its cells
+    sections: tuple[str, ...] = ()  # names of the columns that lines between the rows state
 
     def rows(self, kept) -> "Sheet":
         """The same for some of the rows: a mask or row numbers."""
@@ -67,18 +54,24 @@ class Sheet:
         return None
 
 
-def read_sheet(source: Source, headerless: tuple[str, ...] | None = None) -> Sheet:
+def read_sheet(
+    source: Source, headerless: tuple[str, ...] | None = None, opens_a_section: Callable[[str], bool] = lambda _: False
+) -> Sheet:
     """The table in a text. Raises InputError for the first cell that is no number, and for rows of another length.
 
-    `headerless` gives the column names for a table without a header row.
+    `headerless` gives the column names for a table without a header row; lines among the rows that open a section are
+    comments.
     """
     comments, comment_lines, content = [], [], []
     for number, text in enumerate(source.lines, 1):
         stripped = text.strip()
+        if not stripped.isascii() and not stripped[:1].isalpha():
+            text = plain_row(text)
+            stripped = text.strip()
         if stripped[:1] in DIGITS:
             content.append((number, text))
-        elif stripped.startswith(COMMENTS) and not _is_row_of_units(text):
-            comments.append(stripped.lstrip("#%!/ \t"))
+        elif comment := _comment(stripped, content, opens_a_section):
+            comments.append(comment)
             comment_lines.append(number)
         elif stripped and stripped.strip(",;\t |") != "":
             content.append((number, text))
@@ -103,6 +96,17 @@ def read_sheet(source: Source, headerless: tuple[str, ...] | None = None) -> She
         comment_lines=comment_lines + [number for number, _ in above],
         texts=texts,
     )
+
+
+def _comment(stripped: str, content, opens_a_section) -> str:
+    """What a comment says, and a line that opens a section; nothing of other lines, and of empty comments a blank."""
+    if stripped.startswith(COMMENTS):
+        return "" if _is_row_of_units(stripped) else stripped.lstrip("#%!/ \t") or " "
+    among_rows = bool(content) and content[-1][1].strip()[:1] in A_NUMBER
+    bare = stripped.lstrip("; ")
+    if (stripped[:1] == ";" or stripped[:1].isalpha() and among_rows) and opens_a_section(bare):
+        return bare
+    return ""
 
 
 def _first_row(content) -> int | None:
@@ -134,47 +138,11 @@ def _roughly(text: str) -> list[str]:
     """The cells of a line whose style is not known yet, parted by the strongest mark in it, with decimal points."""
     text = text.strip().replace('"', "")
     mark = next((mark for mark in "\t;|" if mark in text), None)
-    cells = [_dotted(cell.strip(), ",") for cell in text.split(mark)]
+    cells = [dotted(cell.strip(), ",") for cell in text.split(mark)]
     if mark or "," not in text:
         return cells
     by_comma = [cell.strip() for cell in text.split(",")]
     return max((by_comma, cells), key=lambda each: sum(is_number(cell) for cell in each) / max(len(each), 1))
-
-
-def cells_of(text: str, delimiter: str | None) -> list[str]:
-    """The cells of a line, without blanks around them and quotes; None stands for any white space."""
-    if '"' in text:
-        return _quoted(text.strip(), delimiter)
-    return text.split() if delimiter is None else [cell.strip() for cell in text.strip("\n").split(delimiter)]
-
-
-def _quoted(text: str, delimiter: str | None) -> list[str]:
-    """Cells of which some stand in quotes and may hold the delimiter; a doubled quote is one."""
-    cells, cell, pieces = [], "", text.split('"')
-    for place, piece in enumerate(pieces):
-        if place % 2:
-            cell += piece
-        elif place and place + 1 < len(pieces) and not piece:
-            cell += '"'
-        else:
-            first, *rest = _outside(piece, delimiter)
-            cell += first
-            for each in rest:
-                cells.append(cell.strip())
-                cell = each
-    return [*cells, cell.strip()]
-
-
-def _outside(piece: str, delimiter: str | None) -> list[str]:
-    """What stands between two quoted cells, parted by the delimiter."""
-    if delimiter is not None:
-        return piece.split(delimiter)
-    inner = " ".join(piece.split())
-    return f"{' ' * piece[:1].isspace()}{inner}{' ' * (bool(inner) and piece[-1:].isspace())}".split(" ")
-
-
-def is_number(cell: str) -> bool:
-    return holds_number(cell) or (cell.lower() in MISSING and cell != "")
 
 
 def _style(sample: list[str], header: str | None):
@@ -189,17 +157,13 @@ def _style(sample: list[str], header: str | None):
         common = max(set(counts), key=counts.count)
         if common < 2:
             return (False, False, 0.0, False)
-        good = sum(is_number(_dotted(cell, decimal)) or cell == "" for row in rows for cell in row) / sum(counts)
+        good = sum(is_number(dotted(cell, decimal)) or cell == "" for row in rows for cell in row) / sum(counts)
         whole = sum(count == common for count in counts) / len(counts)
         agrees = header is not None and len(cells_of(header, delimiter)) == common
         whole_sheet = agrees and whole == 1 and good > 0.25  # the rest is text
         return (whole_sheet, whole_sheet and delimiter is not None, round(good * whole, 3), agrees)
 
     return max(STYLES, key=score)
-
-
-def _dotted(cell: str, decimal: str) -> str:
-    return cell.replace(",", ".", 1) if decimal == "," and cell.count(",") == 1 and "." not in cell else cell
 
 
 # --- names ------------------------------------------------------------------------------------------------
@@ -335,24 +299,15 @@ def rows_of(source: Source, content, names, delimiter, decimal, notes):
             cells = cells[:width]
         if len(cells) != width:
             raise source.error(f"found {len(cells)} cells, wanted {width} ({', '.join(names)[:80]})", number)
-        rows.append([_dotted(cell, decimal) for cell in cells])
+        rows.append(cells)
         kept.append(number)
+    if decimal == ",":
+        check_thousands(source, rows, kept)
+        rows = [[dotted(cell, decimal) for cell in cells] for cells in rows]
     values, strange = np.full((len(rows), width), np.nan), {}
     for place in range(width):
         column = [row[place] for row in rows]
-        values[:, place], bad = _numbers(column)
+        values[:, place], bad = column_of(column)
         if bad:
             strange[place] = column
     return values, np.array(kept, int), strange
-
-
-def _numbers(cells: list[str]) -> tuple[list[float], bool]:
-    """The cells as numbers, NaN where they hold none, and whether some hold something else."""
-    values, bad = [], False
-    for cell in cells:
-        try:
-            values.append(float(cell))
-        except ValueError:
-            values.append(np.nan)
-            bad = bad or cell.lower() not in MISSING
-    return values, bad

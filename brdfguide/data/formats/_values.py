@@ -10,6 +10,7 @@ from ...records import dataclass
 from .. import conventions
 from ..columns import prose
 from ..columns.facts import Column
+from ..columns.inverse_units import INVERSE_UNITS
 from ..columns.vocabulary import LENGTH_UNITS
 from ..measurement import Measurement
 from ._groups import as_channels
@@ -29,6 +30,9 @@ DECODED = {
     "ln": lambda x: _power(x),
 }
 SAME_SIZE = {"hdrf": "reflectance-factor", "radiance-factor": "reflectance-factor"}
+# what instruments and programs write for too bright or missing: all bits of 10 to 16, or nines
+BITS = {1023.0, 4095.0, 16383.0, 32767.0, 65535.0}
+FULL_SCALES = BITS | {10.0**n - 1 for n in range(3, 10)} | {99.99, 999.9, 999.99, 9999.99}
 RELATIVE = {"dB": LN10 / 10, "log10": LN10, "ln": 1.0}  # a doubt in such units as a share of the value
 
 
@@ -123,8 +127,10 @@ def row_wavelengths(source: Source, table: Sheet, column: Column, notes) -> np.n
     if cell := table.bad_cell(column.place):
         raise source.error(f"column '{column.name[:60]}': found '{cell[0][:40]}', wanted a wavelength", cell[1])
     if column.role == "wavenumber":
-        um = np.divide(1e4, given, out=np.full_like(given, np.nan), where=given > 0)
-        notes.append(Finding("wavenumbers", f"'{column.name}' holds wavenumbers, taken in 1/cm"))
+        unit = column.unit or "1/cm"
+        um = np.divide(INVERSE_UNITS[unit][0], given, out=np.full_like(given, np.nan), where=given > 0)
+        what = {"1/cm": "wavenumbers", "THz": "frequencies", "eV": "photon energies"}[unit]
+        notes.append(Finding("wavenumbers", f"'{column.name}' holds {what}, taken in {unit}"))
     else:
         um = given * _wave_unit(source, column, given, notes)
     bad = np.flatnonzero(~((um >= 0.1) & (um <= 100)))
@@ -159,7 +165,7 @@ def _decoded(source, table: Sheet, columns: list[Column], notes) -> np.ndarray:
     highest = float(np.max(table.values[:, plain], where=np.isfinite(table.values[:, plain]), initial=0.0))
     said = set()
     for place, column in enumerate(columns):
-        given = table.values[:, column.place]
+        given = _without_nines(source, table.values[:, column.place], notes)
         found[:, place] = DECODED[column.scale](given) * column.factor
         if not column.scale and column.factor == 1:
             _not_logarithms(source, column, given, highest)
@@ -170,6 +176,21 @@ def _decoded(source, table: Sheet, columns: list[Column], notes) -> np.ndarray:
         text = f"'{vague[0]}' does not say what it holds: taken as the BRDF [1/sr]"
         notes.append(Finding("quantity-assumed", text, consequence="examined further on", option="--quantity"))
     return found
+
+
+def _without_nines(source, given, notes) -> np.ndarray:
+    """The values without a full scale or a row of nines that stands several times far above all others."""
+    known = given[np.isfinite(given)]
+    largest = float(known.max(initial=0.0))
+    rest = known[known < largest]
+    marks = given == largest
+    count = int(np.count_nonzero(marks))
+    if largest not in FULL_SCALES or count < 2 or not len(rest) or largest < 10 * rest.max():
+        return given
+    text = f"{count} of {len(given)} values are {largest:g}, far above all others: taken as marks for missing"
+    numbers = (("values", count), ("of", len(given)), ("first_per_sr", largest))
+    notes.append(Finding("marks-missing", text, consequence="they take no part in a fit", numbers=numbers))
+    return np.where(marks, np.nan, given)
 
 
 def _how(column: Column) -> Finding:

@@ -15,7 +15,8 @@ import numpy as np
 from ...finding import Finding
 from ..measurement import Measurement
 from . import _meaning
-from ._sheet import COMMENTS, Sheet, cells_of, rows_of
+from ._cells import cells_of
+from ._sheet import COMMENTS, Sheet, rows_of
 from ._writing import about, value, wavelengths
 from .format import Format, Options, Source
 

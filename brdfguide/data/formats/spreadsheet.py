@@ -9,7 +9,9 @@ from dataclasses import replace
 from ...errors import InputError
 from ..measurement import Measurement
 from . import _groups, _meaning
-from ._sheet import is_number, read_sheet
+from ._cells import is_number
+from ._sections import opens_a_section, with_sections
+from ._sheet import read_sheet
 from ._tables import as_text, library
 from .format import OF_TABLES, TEXT_LIMIT, Format, Options, Source
 
@@ -36,7 +38,8 @@ def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
 
 
 def _read(text: Source, options: Options):
-    return read_sheet(text, options.columns if isinstance(options.columns, tuple) else None)
+    headerless = options.columns if isinstance(options.columns, tuple) else None
+    return with_sections(read_sheet(text, headerless, opens_a_section))
 
 
 def _sheet(source: Source, select) -> tuple[Source, tuple]:

@@ -12,6 +12,7 @@ import numpy as np
 from ...printable import comment
 from ..measurement import Measurement
 from . import _groups, _meaning
+from ._sections import opens_a_section, with_sections
 from ._sheet import read_sheet
 from .format import OF_TABLES, Format, Options, Source
 
@@ -33,7 +34,8 @@ def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
 
 
 def _sheet_of(source: Source, options: Options):
-    return read_sheet(source, options.columns if isinstance(options.columns, tuple) else None)
+    headerless = options.columns if isinstance(options.columns, tuple) else None
+    return with_sections(read_sheet(source, headerless, opens_a_section))
 
 
 def written(measurement: Measurement):

@@ -17,6 +17,12 @@ from brdfguide.data.columns import prose
         ("2-5.7 um band", 3.85),
         ("400..700 nm", 0.55),
         ("wavelength: 10.6 µm", 10.6),
+        ("wavelength = 633", 0.633),
+        ("Wavelength 0.633", 0.633),
+        ("wavenumber = 1000 cm-1", 10.0),
+        ("wavenumber: 20000", 0.5),
+        ("frequency: 500 THz", 0.599584916),
+        ("photon energy = 2 eV", 0.619920992),
     ],
 )
 def test_wavelengths(line, um):
@@ -24,7 +30,18 @@ def test_wavelengths(line, um):
 
 
 @pytest.mark.parametrize(
-    "line", ["lambda: 1064", "no wave here", "sigma/lambda = 0.1", "12 nm roughness", "wavelength unknown"]
+    "line",
+    [
+        "lambda: 1064",
+        "no wave here",
+        "sigma/lambda = 0.1",
+        "12 nm roughness",
+        "wavelength unknown",
+        "wavelengths: 3",
+        "chopper frequency: 500 Hz",
+        "frequency: 500",
+        "laser energy 2 mJ",
+    ],
 )
 def test_no_wavelength(line):
     assert prose.wavelength_in([line]) is None

@@ -22,7 +22,11 @@ BAD = {
         {},
         r"no column for brdf.*Columns found: theta_i, theta_r, reading",
     ),
-    "nearly the right name": ("theta_i,theta_rr,brdf\n30,30,1\n", {}, r"no column for theta_r; is it 'theta_rr'\?"),
+    "nearly the right name": (
+        "theta_i,theta_rr,brdf\n30,30,1\n",
+        {},
+        r"no column for theta_r; is it 'theta_rr' \('rr' is not understood\)\?",
+    ),
     "text in a number": (HEAD + "30,30,1\n30,40,high\n", {}, r"line 3: column 'brdf': found 'high', wanted a number"),
     "an empty file": ("", {}, r"the file is empty"),
     "blank lines only": ("\n\n  \n", {}, r"the file is empty"),
