@@ -179,3 +179,17 @@ def test_evidence_has_the_usual_doubts():
     found = evidence_of(parse_material("gloss: {60: 80}\nemergence_angle_deg: 75\nhighlight_width_deg: 10"))
     assert [each.doubt for each in found.observations] == pytest.approx([1.2, 0.1, 2.0])
     assert sqrt(found.n_doubt**2) == 0.06
+
+
+@pytest.mark.parametrize(
+    "readings", [{20: 95, 60: 90}, {20: 60, 60: 90}, {20: 88, 60: 93, 85: 97}, {20: 5, 60: 40, 85: 30}]
+)
+def test_gloss_alone_makes_no_metal_and_is_given_back(readings):
+    """Where the kind is open, the law that gives the readings stands over a body, with the index that they tell."""
+    said = ", ".join(f"{angle}: {units}" for angle, units in readings.items())
+    advice = recommend(parse_material(f"gloss: {{{said}}}"))
+    best = advice.candidates[0].surface
+    assert best.model.name.startswith("lambertian+")
+    for angle, units in readings.items():
+        assert units_of(best, angle) == pytest.approx(units, abs=max(0.02 * units, 0.5)), angle
+    assert "albedo_guess" in {each.rule for each in advice.advice if each.guess}

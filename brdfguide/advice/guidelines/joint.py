@@ -30,7 +30,7 @@ def roughness_of_all_readings(material: Material) -> Advice | None:
     sets: dict = {"inference": found, "alpha": numbers["alpha"].value, "slope": numbers["slope"].value}
     if law.name == "he-torrance":
         sets |= {"sigma": numbers["sigma"].value, "tau": numbers["tau"].value}
-    if "n" in numbers and material.kind == "dielectric":
+    if "n" in numbers and material.kind in ("dielectric", None):  # readings of a metal have no index of their own
         sets |= {"n": (numbers["n"].value,), "k": (0.0,)} if _bears(numbers["n"]) else {}
     names = ("sigma", "tau", "slope") if law.name == "he-torrance" else ("alpha",)
     units = {"sigma": " µm", "tau": " µm"}
@@ -168,7 +168,8 @@ def law_that_gives_the_readings(material: Material) -> Advice | None:
     if not failing:
         return None
     below = "oren-nayar+" if material.steep else "lambertian+"
-    body = below if material.subsurface == "lambertian" else ""
+    open_kind = material.kind not in ("metal", "dielectric") and material.subsurface is None
+    body = below if material.subsurface == "lambertian" or open_kind and material.appearance != "black" else ""
     drops = {each.name: _shortfall(each, found.evidence) for each in failing}
     alone = len(failing) == len(found.laws) - 1
     which = "the only one" if alone else "the plainest"

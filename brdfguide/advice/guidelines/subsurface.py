@@ -170,7 +170,8 @@ def comparisons_disagree(material: Material) -> Advice | None:
 @rule("5.2")
 def albedo_guess(material: Material) -> Advice | None:
     """No comparison was made: medium grey, which is a guess."""
-    if material.albedo is not None or material.subsurface != "lambertian":
+    is_open = material.kind is None and material.subsurface is None and material.appearance != "black"
+    if material.albedo is not None or material.subsurface != "lambertian" and not is_open:
         return None
     says = f"albedo {MEDIUM_GREY}, medium grey; compare with a grey scale instead: {chart.NOT_LINEAR}"
     return Advice(says, "no diffuse reflectance, no comparison", sets={"albedo": (MEDIUM_GREY,)}, guess=True)

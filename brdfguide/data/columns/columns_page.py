@@ -81,8 +81,8 @@ have no effect on a file is refused.
 
 Titles and comments count too: `theta_i: 45`, `AOI = 45 deg`, `wavelength_nm: 633`, `lambda = 532 nm`,
 `wavenumber = 1000 cm-1`, `2-5.7 um band`, `azimuth: 90 deg`, `quantity: brf`, `scale: 0.001`, `BRDF in 1e-3 sr^-1`,
-`angles in radians`, `sample rotated clockwise`, and a quantity by its words where the values' name has none (`BRF values
-of ...`). Lines between the rows that state such a thing again, or a sample, hold for the rows below them:
+`angles in radians`, `sample rotated clockwise`, and a quantity by its words where the values' name has none (`BRF
+values of ...`). Lines between the rows that state such a thing again, or a sample, hold for the rows below them:
 `# theta_i = 30`, `wavelength: 650 nm`, `# sample: white`.
 
 A column that marks rows (`mask`, `valid`, `flag`, `quality`) is asked about. `999` and the like, or all bits of a
@@ -116,7 +116,7 @@ ANGLES = (  # columns, and what they mean
     ("rotation, beside any of them", "the sample turned by +psi: light at -psi of the sample; clockwise, at +psi"),
     (
         "theta_r and a column for each theta_i, or the reverse",
-        "`30 deg`, `theta_i=30`, `BRDF @ 30 deg 550 nm`, `15`",
+        "`30 deg`, `theta_i=30`, `BRDF @ 30 deg 550 nm`, `15`, `-15`; a corner `theta_r \\ theta_i` names both",
     ),
 )
 ABOUT_ANGLES = """

@@ -243,14 +243,15 @@ class _Name:
         unit, number = ANGLE_UNIT_OF.get(self.text(place + 1)), self.left[place].number
         if "at" in found or unit not in ("deg", None) or number >= 90:
             return None
-        start = self._words_before(place, {"light", "detector", "polar", "angle"})
+        below = self.text(place - 1) == "-" and self.text(place - 2) in SAYS_IT_IS
+        start = self._words_before(place - below, {"light", "detector", "polar", "angle"})
         senses = frozenset().union(*(self.senses(each) for each in range(start, place)))
         letters = max((len(text) for text in self.texts(start, place)), default=0)
-        if unit is None and self.text(place - 1) != "@" and (start == place or letters == 1):
+        if unit is None and self.text(place - 1 - below) != "@" and (start == place or letters == 1):
             return None
-        if self.text(place - 1) == "-" and (start == place or self.text(place - 2) in SAYS_IT_IS):
+        if self.text(place - 1) == "-" and not below and start == place:
             return None
-        found["at"] = number
+        found["at"] = -number if below else number
         if ("light" in senses) != ("detector" in senses):
             found["at_role"] = "theta_i" if "light" in senses else "theta_r"
         self.take(start, place - start + (2 if unit else 1))
@@ -272,6 +273,8 @@ class _Name:
     def _bare_number(self) -> dict:
         """One number that is left beside a value, such as 400 or `BRF_865`."""
         numbers = [place for place, token in enumerate(self.left) if token.is_number]
+        if [token.text for token in self.left[:-1]] == ["-"] and numbers == [1]:  # -30 and nothing else
+            return {"bare": f"-{self.left.pop().text}"}
         if len(numbers) != 1 or self.text(numbers[0] - 1) in ("*", "^", "+", "-"):
             return {}
         bare = self.text(numbers[0])

@@ -15,12 +15,20 @@ def columns_of(names: list[str]) -> list[Column]:
 
 def by_name(names: list[str]) -> list[Column]:
     """The columns by their names alone, with letters that mean something beside others."""
-    columns = [understood(name, place) for place, name in enumerate(names)]
+    columns = [_corner(name, place) or understood(name, place) for place, name in enumerate(names)]
     if not _colours_are_whole(columns):
         plain = [understood(name, place, colours=False) for place, name in enumerate(names)]
         pairs = zip(columns, plain, strict=True)
         columns = [other if each.colour and each.colour != "Y" else each for each, other in pairs]
     return _letters(columns)
+
+
+def _corner(name: str, place: int) -> Column | None:
+    """The upper left cell of a sheet, `theta_r \\ theta_i`: the first angle stands below it, the other beside it."""
+    parts = [part for part in name.replace("\\", "/").split("/") if part.strip()]
+    if len(parts) != 2 or {understood(part).role for part in parts} != set(ANGLES):
+        return None
+    return replace(understood(parts[0]), name=name, place=place)
 
 
 def settled(columns: list[Column]) -> list[Column]:

@@ -6,17 +6,35 @@ import numpy as np
 
 from ...finding import Finding
 from ..columns.facts import Column
+from ..columns.grammar import understood
+from ._roles import first_names
 from ._sheet import Sheet
+from .format import Source
 
 SHOWN = 8  # angles in a note
 
 
-def one_angle_a_row(table: Sheet, columns: list[Column], notes: list[Finding]) -> tuple[Sheet, list[Column]]:
-    """The table with its columns for angles under one another, and a column that says which angle; noted."""
+def _names_an_angle(name: str) -> bool:
+    """Whether a name would state an angle but for a hyphen."""
+    return "-" in name and understood(name.replace("-", " ")).at is not None
+
+
+def one_angle_a_row(
+    source: Source, table: Sheet, columns: list[Column], notes: list[Finding]
+) -> tuple[Sheet, list[Column]]:
+    """The table with its columns for angles under one another, and a column that says which angle; noted.
+
+    Raises InputError where the sign of some of the angles is not clear.
+    """
     stated = [column for column in columns if column.at is not None and column.role in ("value", "stderr")]
     kinds = list(dict.fromkeys((column.role, column.channel) for column in stated))
     angles = list(dict.fromkeys(column.at for column in stated))
     cells = {(column.at, column.role, column.channel): column for column in stated}
+    unclear = [column.name for column in columns if column.role is None and _names_an_angle(column.name)]
+    if stated and unclear:
+        raise source.error(
+            f"the columns {first_names(unclear)}: a minus sign or a hyphen before the angle? Write it as theta_r=-30"
+        )
     if not stated or len(cells) < len(stated) or len(cells) != len(kinds) * len(angles):
         return table, columns
     others = [column for column in columns if column not in stated]

@@ -262,6 +262,35 @@ def test_marks_for_missing_cells(tmp_path, mark):
     np.testing.assert_array_equal(np.flatnonzero(np.isnan(found.brdf[:, 0])), [5])
 
 
+# --- sheets of angles -------------------------------------------------------------------------------------
+
+SHEET = PLANE.reshape(3, -1)  # a row for each incidence
+
+
+@pytest.mark.parametrize(
+    "head", ["{:g}", "theta_r={:g}", "BRDF @ {:g} deg", "{:g}°", "BRDF({:g})", "BRDF theta_r = {:g} deg"]
+)
+def test_columns_for_reflected_angles_of_both_signs(tmp_path, head):
+    text = "theta_i," + ",".join(head.format(each) for each in THETA_R[: SHEET.shape[1]]) + "\n"
+    found = read(tmp_path, text + lines([10, 30, 50], *SHEET.T))
+    agrees(found)
+    assert found.geom.theta_r_deg.max() == 75
+
+
+@pytest.mark.parametrize("corner", ["theta_r\\theta_i", "theta_r / theta_i", "theta_r (deg) \\ theta_i (deg)"])
+def test_a_sheet_whose_corner_names_both_angles(tmp_path, corner):
+    agrees(read(tmp_path, f"{corner},10,30,50\n" + lines(THETA_R[: SHEET.shape[1]], *SHEET)))
+    text = corner.replace("_r", "_x").replace("_i", "_r").replace("_x", "_i")
+    text += "," + ",".join(f"{each:g}" for each in THETA_R[: SHEET.shape[1]]) + "\n"
+    agrees(read(tmp_path, text + lines([10, 30, 50], *SHEET.T)))
+
+
+def test_a_hyphen_that_may_be_a_minus_sign_is_asked_about(tmp_path):
+    text = "theta_i," + ",".join(f"theta_r {each:g}" for each in THETA_R[: SHEET.shape[1]]) + "\n"
+    with pytest.raises(InputError, match="the columns theta_r -75, .* a minus sign or a hyphen before the angle"):
+        read(tmp_path, text + lines([10, 30, 50], *SHEET.T))
+
+
 # --- how numbers are written ------------------------------------------------------------------------------
 
 
