@@ -17,6 +17,7 @@ from brdfguide.report.documents import emergence
 from brdfguide.report.figures import beta, inspection, lobe_views, paper, promises, style
 from brdfguide.report.figures import emergence as contours
 from brdfguide.report.figures import ranking as drawing
+from brdfguide.report.figures.dark import darken
 
 from ..conftest import DATA, ROOT
 from .probe import faults
@@ -141,3 +142,16 @@ def test_the_probe_sees_what_is_wrong(spoil, words):
         else:
             axis.set_ylim(0, 2.5)
     assert any(words in fault for fault in faults(fig))
+
+
+def test_a_lobe_in_space_keeps_its_shades_on_a_dark_ground():
+    """What the surface gives back as its colours is in the order of depth, which is not that of its facets."""
+    fig = style.figure(90, 72)
+    axis = fig.add_subplot(projection="3d")
+    x, y = np.meshgrid(np.linspace(-1, 1, 12), np.linspace(-1, 1, 12))
+    surface = axis.plot_surface(x, y, np.exp(-(x**2) - y**2), facecolors=lobe_views.HEIGHT(x**2 + y**2))
+    fig.draw_without_rendering()
+    before = np.array(surface.get_facecolor())
+    darken(fig)
+    fig.draw_without_rendering()
+    np.testing.assert_array_equal(surface.get_facecolor(), before)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Annotation, Text
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .palette import INK, RULE, SWAPPED
 
@@ -28,6 +29,8 @@ def darken(fig: Figure) -> None:
         elif isinstance(each, Patch):
             each.set_facecolor(_twin(each.get_facecolor()))
             each.set_edgecolor(_twin(each.get_edgecolor()))
+        elif isinstance(each, Poly3DCollection):
+            continue  # its shades are its own, and are given back in the order of their depth
         elif isinstance(each, Collection):
             each.set_facecolor(_twins(each.get_facecolor()))
             each.set_edgecolor(_twins(each.get_edgecolor()))

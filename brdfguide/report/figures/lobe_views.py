@@ -40,7 +40,7 @@ def plot_polar(ranking, measurement: Measurement, path, theme: str = style.LIGHT
                     np.radians(grid), _radius(values, low, high), zorder=3 if line.recommended else 2, **line.look
                 )
             dots = _radius(panel.value, low, high)
-            axis.plot(np.radians(panel.theta_r), dots, "o", color=style.INK, ms=1.6, mew=0, alpha=0.8, zorder=2.5)
+            axis.plot(np.radians(panel.theta_r), dots, "o", color=style.INK, ms=1.8, mew=0, alpha=0.9, zorder=3.5)
             axis.set_title(f"$\\theta_i$ = {panel.theta_i:g}°", loc="left", y=0.78)
         handles = [Line2D([], [], ls="", marker="o", color=style.INK, ms=3, mew=0, label="data")]
         handles += [Line2D([], [], label=line.words, **line.look) for line in lines]
@@ -138,6 +138,6 @@ def _stage(axis, theta_i: float) -> None:
                 zorder=3)  # fmt: skip
     axis.plot([0, np.sin(t)], [0, 0], [0, np.cos(t)], color=style.INK, lw=0.8, ls=style.DASHES[2], zorder=3)
     axis.set(xlim=(-0.8, 0.8), ylim=(-0.8, 0.8), zlim=(0, 1))
-    axis.set_box_aspect((1.6, 1.6, 1.0), zoom=1.2)
+    axis.set_box_aspect((1.6, 1.6, 1.0), zoom=1.12)
     axis.view_init(elev=20, azim=-68)
     axis.set_axis_off()
