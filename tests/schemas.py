@@ -46,6 +46,7 @@ COMMANDS = (
     "compare lambertian+ggx lambertian+ward ggx --json",
     f"compare {PLASTIC} lambertian+ggx --json",
     "roughness --angle 75 --json",
+    "roughness --angle 0 --json",
     "roughness --angle 75 --json --contour --angle-error 3",
     "roughness --angle 80 --never --json",
     "roughness --angle 80 --angle-across 78 --slope 0.3 --json",
@@ -55,10 +56,12 @@ COMMANDS = (
     "index gold --json",
     "index --n 1.5 --json",
     "index --f0 0.04 --json",
+    "albedo --json",
     "albedo --patch white --json",
     "albedo --between white black --position 0.3 --json",
     "albedo --ratio 0.3 --reference 0.9 --json",
     "gloss --at-60 40 --json",
+    "gloss --at-20 88 --at-60 93 --json",
     "gloss --alpha 0.1 --n 1.5 --json",
     "scatter --ra 12nm --json",
     "scatter --tis 0.01 --json",
@@ -95,6 +98,7 @@ COMMANDS = (
     "search {out}/fits metal --like porcelain --json",
     "search {out}/fits --alike --json",
     "convert --from ward --to ggx alpha=0.2 rho_s=0.1 --json",
+    "convert --from gltf --to openpbr base_color=0.8,0.1,0.1 roughness=0.4 --json",
     "plan porcelain --budget 2 --theta-max 40 --json",
 )
 FILES = {
@@ -108,7 +112,7 @@ MAPS = {  # keys whose values are objects with free keys
     *("parameters", "typed", "start", "winners", "scales", "errors", "rms_ln_by_theta_i", "numbers", "gloss_gu"),
     *("intervals_95", "shows_from", "given", "shown", "alpha_shows_from", "gamma", "missed_by_doubts", "measured"),
     *("predicted_gu", "alpha_of_each", "readings_gu", "box", "breaks", "values", "where", "operations", "whole"),
-    *("written", "pruned", "at", "material", "sources", "inferred_numbers", "kinds", "keys_of"),
+    *("energy", "written", "pruned", "at", "material", "sources", "inferred_numbers", "kinds", "keys_of"),
 }
 NULLABLE = {  # null where the data do not say it, which the commands above all do
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
