@@ -36,7 +36,7 @@ def answered(argv: list[str]) -> bool:
                 number = float(value if equals else next(words))
             except (ValueError, StopIteration):
                 return False
-            if number - number != 0:  # infinite, or none
+            if number - number != 0 or name[2:].replace("-", "_") in question:  # infinite, none, or told twice
                 return False
             question[name[2:].replace("-", "_")] = number
         elif word in SWITCHES:

@@ -34,10 +34,16 @@ class Group(TyperGroup):
 
 
 class Command(TyperCommand):
-    """Options under the heading that each names, arguments first; a number is a number, neither infinite nor none."""
+    """Options under the heading that each names, arguments first; a number is a number, neither infinite nor none, and
+    given once."""
 
     def parse_args(self, ctx, args):
+        words = list(args)
         rest = super().parse_args(ctx, args)
+        _, _, order = self.make_parser(ctx).parse_args(words)
+        twice = [each for place, each in enumerate(order) if each in order[:place] and _is_single(each)]
+        if twice:
+            raise InputError(f"{twice[0].opts[0]} is given twice, and only one could count")
         for parameter in self.get_params(ctx):
             value = ctx.params.get(parameter.name)
             if isinstance(value, float) and not isfinite(value):
@@ -64,6 +70,12 @@ class Command(TyperCommand):
             with formatter.section("Examples"):
                 for line in self.epilog.removeprefix("Examples:").split(" | "):
                     formatter.write(f"  {line.strip()}\n")
+
+
+def _is_single(parameter) -> bool:
+    """Whether an option takes one value: neither a switch nor repeatable."""
+    switch = getattr(parameter, "is_flag", False) or getattr(parameter, "count", False)
+    return parameter.param_type_name == "option" and not parameter.multiple and not switch
 
 
 def first_sentence(text: str | None) -> str:

@@ -131,7 +131,7 @@ def surfaces_of(words: list[str], model: str | None, channel: str | None, name: 
     Raises InputError; NoAnswer for a material outside the guide's domain.
     """
     from .. import exporters
-    from ..face.surfaces import described, every_described, typed_out
+    from ..face.surfaces import described, every_described, named_surface, typed_out
     from ..fitting import saved
 
     inputs = [word for word in words if "=" not in word]
@@ -145,9 +145,12 @@ def surfaces_of(words: list[str], model: str | None, channel: str | None, name: 
             surfaces = [saved.read_surface(inputs[0], model)]
         else:
             surfaces = [described(inputs[0], model)] if model else every_described(inputs[0])
+    elif model is None and len(given) == 1 and " " in given[0]:
+        surfaces = [named_surface(given[0])]
     elif model is None:
+        found = f"; {given[0]} needs --model beside it" if given else ""
         raise InputError(
-            "what to export: a fit's JSON, a material's name or YAML, or --model with NAME=VALUE parameters"
+            f"what to export: a fit's JSON, a material's name or YAML, or --model with NAME=VALUE parameters{found}"
         )
     else:
         surfaces = [typed_out(model, given)]

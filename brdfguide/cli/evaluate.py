@@ -98,7 +98,7 @@ def _angles(text: str, name: str):
     try:
         if ":" in text:
             low, high, step = (float(part) for part in text.split(":"))
-            if not (0 < step < MOST_DEG and (high - low) / step <= 100_000):
+            if not (0 < step < MOST_DEG and low <= high and (high - low) / step <= 100_000):
                 raise ValueError
             angles = low + step * np.arange(int(np.floor((high - low) / step + 1e-9)) + 1)
         else:

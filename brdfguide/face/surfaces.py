@@ -10,8 +10,9 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from .. import catalog
-from ..errors import InputError, NoAnswer
+from ..errors import InputError, NoAnswer, nearest_words
 from ..models.surface import Surface
+from ..printable import short
 
 if TYPE_CHECKING:
     from ..advice.recommend import Recommendation
@@ -47,7 +48,23 @@ def named_surface(words: str, values: Mapping[str, Any] = MappingProxyType({})) 
     if is_material(file):
         name = f"{Path(file).stem} {row}".rstrip()
         return exporters.coloured(described(file, row or None).with_values(values), name)
+    if not given and not values:
+        _check_name(first)
     return exporters.coloured(typed_out(first, given, values), first)
+
+
+def _check_name(word: str) -> None:
+    """Raises InputError for a word that is neither a model nor a material, with the nearest of both."""
+    from ..advice import library
+
+    models, materials = catalog.names("models"), library.library_names()
+    if word.split("+")[0].partition(":")[0].replace("_", "-") in models or "+" in word or " " in word:
+        return
+    near = nearest_words(word.lower(), [*materials, *models], 3, 0.6)
+    hint = (
+        f"; did you mean {' or '.join(near)}?" if near else "; `brdfguide models` and `brdfguide materials` list them"
+    )
+    raise InputError(f"no model or material called '{short(word)}'{hint}")
 
 
 def described(text: str, model: str | None = None) -> Surface:

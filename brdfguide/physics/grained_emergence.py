@@ -27,6 +27,7 @@ from .emergence import (
     tau_for_sigma,
 )
 
+SEEN_DEG = 0.01  # what is less is no difference
 MOST_RATIO = 100.0  # tau_y/tau_x, as in the laws with a grain
 STEPS = 60  # of the ratio's logarithm, between which an angle is taken to bend once
 SAME = 1e-6  # deg, by which both angles may differ and be one
@@ -115,8 +116,9 @@ def _why_not(along_deg, across_deg, slope, wavelength, omega) -> str:
     if slope is None:
         return f"{told}: with this sigma no two correlation lengths do that"
     wanted = along_deg - across_deg
-    allowed = f"{told}: at sigma/tau {slope:g} across the grain both differ by at most "
-    allowed += f"{most_difference(across_deg, slope, wavelength, omega):.2g} deg"
+    most = most_difference(across_deg, slope, wavelength, omega)
+    apart = "do not differ" if most < SEEN_DEG else f"differ by at most {most:.2g} deg"
+    allowed = f"{told}: at sigma/tau {slope:g} across the grain the two {apart}"
     steeper = [step / 20 for step in range(1, 21) if slope < step / 20 <= STEEPEST]
     enough = (each for each in steeper if most_difference(across_deg, each, wavelength, omega) >= wanted)
     least = next(enough, inf)

@@ -85,7 +85,7 @@ def test_two_spheres_and_their_difference_are_drawn(tmp_path):
     [
         (["ggx"], "one surface has nothing to be compared with; name two, or a target with --to"),
         (["ggx", "nothing.csv"], "nothing.csv: there is no such file"),
-        (["ggx", "gxx"], "no model called 'gxx'; did you mean ggx?"),
+        (["ggx", "gxx"], "no model or material called 'gxx'; did you mean ggx?"),
         (["ggx", "ggx ggx.alpha=9"], "alpha = 9 is outside"),
         ([DATA, "examples/metallic_paint.csv"], "measured at different directions, and between them there is nothing"),
         ([DATA, "ggx", "--plot", "it.png"], "--plot: rough_plastic.csv holds measured directions"),

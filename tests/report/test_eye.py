@@ -14,7 +14,7 @@ from brdfguide.data.measurement import Measurement
 from brdfguide.models.surface import Surface
 from brdfguide.physics.geometry import in_plane, rows
 from brdfguide.report.documents import emergence
-from brdfguide.report.figures import beta, inspection, lobe_views, paper, promises, style
+from brdfguide.report.figures import beta, inspection, lobe_views, lobes, paper, promises, style
 from brdfguide.report.figures import emergence as contours
 from brdfguide.report.figures import ranking as drawing
 from brdfguide.report.figures.dark import darken
@@ -155,3 +155,14 @@ def test_a_lobe_in_space_keeps_its_shades_on_a_dark_ground():
     darken(fig)
     fig.draw_without_rendering()
     np.testing.assert_array_equal(surface.get_facecolor(), before)
+
+
+@pytest.mark.parametrize(("low", "high", "most"), [(2e-16, 0.2, 10), (1e-3, 0.5, 10), (0.03, 0.2, 8)])
+def test_numbers_on_a_log_axis_are_plain_and_keep_apart(low, high, most):
+    axis = style.figure(90, 72).subplots()
+    axis.set(yscale="log", ylim=(low, high))
+    lobes.plain_log(axis.yaxis)
+    axis.figure.draw_without_rendering()
+    shown = [label.get_text() for label in axis.get_yticklabels() if label.get_text()]
+    inside = [text for text in shown if low <= float(text) <= high]
+    assert 2 <= len(inside) <= most, shown

@@ -24,7 +24,7 @@ from .vocabulary import (
 )
 
 MOST_WORDS = 10  # of a name, beside its numbers and units; rules account for no more
-HARMLESS = frozenset("/-:;,=@#|<>~'\"?&!")  # signs that say nothing where they are left over
+HARMLESS = frozenset("/-:;,=@#|<>~'\"?&!$\\")  # signs that say nothing where they are left over
 
 
 @lru_cache(maxsize=1024)

@@ -112,6 +112,8 @@ SPELT = {
     "wellenlänge": "wavelength",
     "wellenlaenge": "wavelength",
     "azimut": "azimuth",
+    "azimutwinkel": "azimuth angle",
+    "reflexionswinkel": "angle of reflection",
     "unsicherheit": "uncertainty",
 }
 # a Greek letter, a cosine or a sine with a short mark behind it, written as one word: thetai, phir, thetah, mu0

@@ -8,6 +8,7 @@ from ...finding import Finding
 from ...records import dataclass
 from ..columns import prose
 from ..columns.facts import Column
+from ..columns.grammar import understood
 from . import _half_difference, _phase
 from ._angle_units import OF_DIRECTIONS, in_degrees
 from ._azimuths import brightness, counter_clockwise, role_of_the_azimuth
@@ -129,10 +130,11 @@ def _reflected(angles: Angles, theta_i):
         return angles.take("theta_r")
     if angles.has("from_mirror"):
         angles.note("angle-from-mirror", _from_mirror(angles, "from_mirror", ""), option="--columns")
-        return _above(theta_i + angles.take("from_mirror"))
+        return _with_sign(angles, "from_mirror", _above(theta_i + angles.take("from_mirror")))
     if angles.has("beta_from_mirror"):
         angles.note("angle-from-mirror", _from_mirror(angles, "beta_from_mirror", " as sines"), option="--columns")
-        return _arcsine(angles, "", np.sin(np.radians(theta_i)) + angles.take("beta_from_mirror"))
+        theta_r = _arcsine(angles, "", np.sin(np.radians(theta_i)) + angles.take("beta_from_mirror"))
+        return _with_sign(angles, "beta_from_mirror", theta_r)
     if angles.has("beta_r", "alpha_r"):
         along, across = angles.take("beta_r"), angles.take("alpha_r")
         angles.note("direction-cosines", "beta points to the mirror side of the plane of incidence, alpha out of it")
@@ -154,6 +156,20 @@ def _from_mirror(angles: Angles, role: str, how: str) -> str:
             )
         del angles.raw[each]
     return f"angles count from the mirror direction: added to theta_i{how}, positive toward grazing"
+
+
+def _with_sign(angles: Angles, role: str, theta_r) -> np.ndarray:
+    """The angles [deg]. Raises InputError where they are made of sizes without a sign, as |beta - beta0|, of
+    which some would lie beyond the horizon."""
+    names = [name for name in angles.table.names if understood(name).role == role and "|" in name]
+    beyond = np.flatnonzero(np.isnan(theta_r) & np.isfinite(angles.raw[role]))
+    if names and len(beyond):
+        raise angles.source.error(
+            f"column '{names[0][:40]}': found {angles.raw[role][beyond[0]]:g}, toward grazing beyond the horizon: on "
+            f"which side of the mirror direction a size lies is not said; wanted a sign, or theta_r",
+            int(angles.table.lines[beyond[0]]),
+        )
+    return theta_r
 
 
 def _arcsine(angles: Angles, role: str, sines) -> np.ndarray:

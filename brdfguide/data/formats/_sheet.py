@@ -80,6 +80,11 @@ def read_sheet(
             "there is no table in it, only comments and blank lines" if comments else "the file is empty"
         )
     first = _first_row(content)
+    if first is None and source.name.lower().endswith((".yaml", ".yml")):
+        raise source.error(
+            "a description without measured values: `brdfguide recommend` takes it; one of photographs has the key "
+            "'photographs'"
+        )
     if first is None:
         raise source.error(f"no row of numbers found; the first line is '{content[0][1].strip()[:60]}'", content[0][0])
     delimiter, decimal = _style(

@@ -71,7 +71,8 @@ def draw_cost(fig, lines: list[Line], words: str = TIME) -> None:
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xlim(time.min() / 2, time.max() * 4)
-    axis.set_ylim(error.min() / 1.5, error.max() * 1.6)
+    room = max(1.5, (error.max() / error.min()) ** 0.06)  # of a share of the axis, where it spans many decades
+    axis.set_ylim(error.min() / room, error.max() * room)
     plain_log(axis.yaxis)
     plain_log(axis.xaxis)
     axis.set_xlabel(words)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.ticker import LogFormatterMathtext, LogLocator, MaxNLocator
+from matplotlib.ticker import MaxNLocator
 
 from ...data.lobe_ellipse import STEEPEST_DEG, Ellipse, lobe_ellipse, widths_of_turns
 from ...data.measurement import Measurement
@@ -17,6 +17,7 @@ from ...physics.geometry import Geometry, rows
 from ...records import dataclass
 from . import style
 from .lines import Line, grid_of, nominal_channel, without_zeros
+from .lobes import plain_log
 
 HEIGHT_MM = 74.0
 HEAT = LinearSegmentedColormap.from_list("ln", ["#EAF1F7", "#9FC6E3", "#3D8BBF", "#0B4F86", "#08203A"])
@@ -114,13 +115,12 @@ def _scans(axes, grain: DrawnGrain, line: Line | None) -> None:
             value = np.broadcast_to(value, (len(grid), len(grain.measurement.channels)))[:, channel]
             axes.plot(grid, without_zeros(value), "-", color=colour, lw=1.1)
     axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(numticks=8))
-    axes.yaxis.set_minor_formatter(LogFormatterMathtext(minor_thresholds=(1.5, 0.5)))
     axes.set_xlabel("reflection angle θr [°]")
     axes.set_ylabel("BRDF [1/sr]")
     if len(picked):
         low, high = axes.get_ylim()
         axes.set_ylim(low * (low / high) ** ROOM, high)
+        plain_log(axes.yaxis)
         axes.legend(title="light at azimuth", title_fontsize=6.5, fontsize=6.5, loc="lower left", handletextpad=0.2)
     axes.set_title(f"turned, θi {grain.theta_i:g}°" + ("" if line is None else "; lines: model"))
 

@@ -17,6 +17,7 @@ from .panels import Panel, Panels, panels
 MOST_OVER = 1e3  # how far above the data a mirror image may lift the frame
 SPARSE = 60  # values of a panel; with fewer the points are larger and lie over the lines
 MOST_RESIDUAL = 3.0
+MANY_DECADES = 3e5  # of an axis, that has powers of ten alone
 
 
 def plot_lobes(lines: list[Line], measurement: Measurement, width_mm=180, height_mm=105, note=None, title=None):
@@ -164,6 +165,8 @@ def _legend(fig, title, lines: list[Line], measurement: Measurement, channel: in
 def plain_log(axis) -> None:
     """Plain numbers on a log axis, as few as fit."""
     low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 8 * low else (1, 1.5, 2, 3, 4, 5, 6, 8), numticks=20))
+    within = (1, 2, 5) if high > 8 * low else (1, 1.5, 2, 3, 4, 5, 6, 8)
+    many = high > MANY_DECADES * low
+    axis.set_major_locator(LogLocator(numticks=9) if many else LogLocator(subs=within, numticks=20))
     axis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.set_minor_formatter(NullFormatter())

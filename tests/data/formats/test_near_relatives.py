@@ -291,6 +291,24 @@ def test_a_hyphen_that_may_be_a_minus_sign_is_asked_about(tmp_path):
         read(tmp_path, text + lines([10, 30, 50], *SHEET.T))
 
 
+@pytest.mark.parametrize("head", ["|beta-beta0|", "|β−β₀|", "|beta_s - beta_i|"])
+def test_sizes_of_a_difference_have_no_side(tmp_path, head):
+    sizes = np.abs(np.sin(np.radians(THETA_R)) - np.sin(np.radians(THETA_I)))
+    with pytest.raises(
+        InputError, match=r"line 2: column .*: found 1\.1\d*, toward grazing beyond the horizon: on which"
+    ):
+        read(tmp_path, f"AOI,{head},BSDF\n" + lines(THETA_I, sizes, PLANE))
+    ahead = THETA_R > THETA_I
+    found = read(tmp_path, f"AOI,{head},BSDF\n" + lines(THETA_I[ahead], sizes[ahead], PLANE[ahead]))
+    np.testing.assert_allclose(found.geom.theta_r_deg[:, 0], THETA_R[ahead], atol=1e-5)
+
+
+def test_names_of_latex_and_german_azimuths(tmp_path):
+    table = lines(THETA_I, np.abs(THETA_R), np.where(THETA_R < 0, 0, 180), PLANE)
+    agrees(read(tmp_path, "$\\theta_i$,$\\theta_r$,$\\phi$,$f_r$\n" + table))
+    agrees(read(tmp_path, "Einfallswinkel,Reflexionswinkel,Azimutwinkel,BRDF\n" + table))
+
+
 # --- how numbers are written ------------------------------------------------------------------------------
 
 
@@ -323,3 +341,10 @@ def test_a_comma_that_may_part_thousands_is_asked_about(tmp_path, sep):
 def test_two_units_in_a_name_are_named(tmp_path):
     with pytest.raises(InputError, match=r"is it 'theta_i_deg \(rad\)' \(its name says two units, deg and rad\)\?"):
         read(tmp_path, "theta_i_deg (rad),theta_r_deg (rad),brdf\n" + lines(THETA_I, THETA_R, PLANE))
+
+
+def test_a_description_is_no_data(tmp_path):
+    path = tmp_path / "mug.yaml"
+    path.write_text("name: mug\ncomposition: porcelain\n")
+    with pytest.raises(InputError, match="a description without measured values: `brdfguide recommend` takes it"):
+        formats.read(path)
