@@ -19,7 +19,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ..errors import BrdfguideError, InputError
-from .store import INDEX, Store
+from .store import INDEX, SIGN, Store
 
 SCHEMA = "brdfguide/collected/1"
 JUST_NOW_NS = 2 * 10**9
@@ -65,11 +65,12 @@ def collect_into(store: Store, path: Path) -> tuple[int, int]:
     """Brings a database up to the folder: how many answers it holds, and how many of them are new.
 
     What lies in folders that nobody wrote in since is not looked at. Raises InputError where the file is no such
-    database or cannot be written.
+    database, holds the answers of another folder that is there, or cannot be written.
     """
     with opened(path, make=True) as base, base:
         base.execute("CREATE TABLE IF NOT EXISTS stamp(folder TEXT PRIMARY KEY, ns INTEGER)")
         known = dict(base.execute("SELECT folder, ns FROM stamp"))
+        _check_folder(known, store, path)
         stamps: dict[str, int | None] = {}
         new = 0
         for kind, bring in (("answers", _bring_answers), ("names", _bring_names), ("failed", _bring_failures)):
@@ -83,6 +84,18 @@ def collect_into(store: Store, path: Path) -> tuple[int, int]:
             base.executemany("INSERT INTO stamp VALUES (?, ?)", stamps.items())
         (count,) = base.execute("SELECT count(*) FROM fit").fetchone()
     return count, new
+
+
+def _check_folder(known: dict[str, int], store: Store, path: Path) -> None:
+    """Raises InputError where a database outside of the folder was made of another one, whose answers would go."""
+    here = Path(os.path.abspath(store.folder))
+    roots = {Path(folder).parent.parent for folder in known} - {here}
+    others = sorted(str(root) for root in roots if (root / SIGN).exists() and not os.path.samefile(root, here))
+    if others and here not in Path(os.path.abspath(path)).parents:
+        raise InputError(
+            f"{path}: it holds the answers of {others[0]}, which those of {store.folder} would replace; collect into "
+            f"another file"
+        )
 
 
 def _stamps(folder: Path) -> dict[str, int | None]:

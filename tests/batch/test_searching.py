@@ -1,6 +1,7 @@
 """Answers as a table, and surfaces found among them by words, numbers and looks."""
 
 import json
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -113,6 +114,14 @@ def test_folders_in_which_nothing_was_written_since_are_not_looked_at(tmp_path, 
     assert collected.collect_into(answers, base_path) == (3, 1)
     other = store.store_at(tmp_path / "e")
     list(run_tasks([Task(str(files[0]), files[0], WORK, other)], other))
+    with pytest.raises(InputError, match="it holds the answers of .*/d, which those of .*/e would replace"):
+        collected.collect_into(other, base_path)
+    with collected.opened(base_path) as base:
+        assert base.execute("SELECT count(*) FROM fit").fetchone() == (3,)
+    (tmp_path / "d").rename(tmp_path / "moved")
+    assert collected.collect_into(store.known_store(tmp_path / "moved"), base_path) == (3, 0)
+    (tmp_path / "moved").rename(tmp_path / "d")
+    shutil.rmtree(tmp_path / "d")
     assert collected.collect_into(other, base_path) == (1, 0)
 
 

@@ -1,6 +1,7 @@
 """What titles and comments say of a table: wavelength, incidence, quantity, unit of the angles, sense of rotations."""
 
 from itertools import pairwise
+from math import acos, asin, degrees
 
 from ...records import dataclass
 from .facts import bare_wavelength, facts, spelt_out
@@ -8,7 +9,16 @@ from .grammar import understood
 from .inverse_units import InverseUnit, inverse_unit
 from .tokens import Token
 from .turning_sense import taken_sense
-from .vocabulary import ANGLE_UNIT_OF, LENGTH_UNIT_OF, LENGTH_UNITS, SPOKEN_OF, STERADIAN, senses_of, word_set
+from .vocabulary import (
+    ANGLE_UNIT_OF,
+    ANGLE_UNITS,
+    LENGTH_UNIT_OF,
+    LENGTH_UNITS,
+    SPOKEN_OF,
+    STERADIAN,
+    senses_of,
+    word_set,
+)
 
 MOST_LINES = 2000  # of titles and comments; data do not begin later
 BETWEEN = 5  # tokens that may stand between `wavelength` and its number
@@ -95,8 +105,11 @@ def _alone(row: list[Token]) -> float | None:
     return None
 
 
-def incidence_in(lines) -> float | None:
-    """`theta_i: 45`, `AOI = 45 deg`, `Angle of incidence: 45°` [deg]."""
+def incidence_in(lines, unit: str = "deg") -> float | None:
+    """`theta_i: 45`, `AOI = 45 deg`, `theta_i [rad]: 0.5`, `elevation of the light: 60°`, `cos(theta_i) = 0.87` [deg].
+
+    `unit` is that of a number without one.
+    """
     for line in lines[:MOST_LINES]:
         row = spelt_out(line)
         for place, token in enumerate(row):
@@ -106,11 +119,25 @@ def incidence_in(lines) -> float | None:
             at = place + 1 + (row[place + 1].text in ("-", "+"))
             if at >= len(row) or not row[at].is_number:
                 continue
-            if at + 1 < len(row) and ANGLE_UNIT_OF.get(row[at + 1].text) != "deg":
+            after = row[at + 1].text if at + 1 < len(row) else ""
+            several = after in (",", ";") and at + 2 < len(row) and row[at + 2].is_number
+            if several or after not in ("", ",", ";") and after not in ANGLE_UNIT_OF:
                 continue
-            if "theta_i" in _angles_named(row[:place]):
-                return sign * row[at].number
+            before = [each.text for each in row[:place] if each.text in ANGLE_UNIT_OF]
+            stated = ANGLE_UNIT_OF.get(after) or (ANGLE_UNIT_OF[before[-1]] if before else unit)
+            form = _form_of_incidence(row[:place])
+            if form is not None:
+                return _in_degrees(sign * row[at].number, form, stated)
     return None
+
+
+def _in_degrees(number: float, form: str, unit: str) -> float | None:
+    """An angle [deg] given as itself, as an elevation, or by a function of it; None beyond what that can be."""
+    if form in ("cos", "sin"):
+        inverse = acos if form == "cos" else asin
+        return round(degrees(inverse(number)), 9) if abs(number) <= 1 else None
+    angle = round(number * ANGLE_UNITS[unit][0], 9)
+    return 90.0 - angle if form == "elevation" else angle
 
 
 def angles_of_detector_in(lines) -> dict[str, float]:
@@ -130,10 +157,11 @@ def angles_of_detector_in(lines) -> dict[str, float]:
     return {role: angles.pop() for role, angles in found.items() if len(angles) == 1}
 
 
-def _angles_named(before: list[Token]) -> set[str | None]:
+def _form_of_incidence(before: list[Token]) -> str | None:
+    """How the words name the angle of incidence, the most of them that do: "" as itself; None where they do not."""
     words = [token.text for token in before if token.is_word and token.text not in ANGLE_UNIT_OF][-WORDS_OF_AN_ANGLE:]
-    tails = (" ".join(words[start:]) for start in range(len(words)))
-    return {column.role for column in map(understood, tails) if not column.form}
+    tails = (understood(" ".join(words[start:])) for start in range(len(words)))
+    return next((column.form for column in tails if column.role == "theta_i"), None)
 
 
 def quantity_stated(lines) -> str | None:

@@ -12,6 +12,7 @@ from ..columns.facts import Column, facts
 from ..columns.grammar import understood
 from ..columns.header import by_name, settled
 from ..columns.undone import FACTOR, not_undone
+from ..columns.vocabulary import ANGLE_UNITS
 from . import _options
 from ._sheet import Sheet
 from .format import Options, Source, wavelength_found
@@ -189,7 +190,7 @@ def _given(columns, role: str, places, why: str) -> list[Column]:
 def _from_comments(table: Sheet, options: Options, source: Source):
     """`# theta_i: 45`, `# wavelength_nm = 532`, `lambda = 532 nm`, `2-5.7 um band` among the comments."""
     found: dict[str, float] = {}
-    incidence = prose.incidence_in(table.comments)
+    incidence = prose.incidence_in(table.comments, _unit_of_angles(table, options))
     if incidence is not None:
         found["theta_i"] = incidence
     if options.wavelength_nm is not None or "wavelength" in _mapping(options):
@@ -198,6 +199,12 @@ def _from_comments(table: Sheet, options: Options, source: Source):
     if um is not None:
         found["wavelength"] = um
     return found, notes
+
+
+def _unit_of_angles(table: Sheet, options: Options) -> str:
+    """The unit of an angle that names none: that of --unit, of a comment, or of all columns that name one; degrees."""
+    named = {unit for name in table.names if (unit := understood(name).unit) in ANGLE_UNITS}
+    return options.unit or prose.angle_unit_in(table.comments) or (named.pop() if len(named) == 1 else None) or "deg"
 
 
 def _detector_in_comments(table: Sheet, roles: set[str | None]) -> dict[str, float]:

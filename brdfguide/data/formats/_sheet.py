@@ -65,7 +65,7 @@ def read_sheet(
     comments, comment_lines, content = [], [], []
     for number, text in enumerate(source.lines, 1):
         stripped = text.strip()
-        if not stripped.isascii() and not stripped[:1].isalpha():
+        if not stripped.isascii() and not stripped[:1].isalpha() and not stripped.startswith(COMMENTS):
             text = plain_row(text)
             stripped = text.strip()
         if stripped[:1] in DIGITS:

@@ -159,6 +159,24 @@ def test_one_azimuth_for_all_stands_in_a_comment(tmp_path, line):
     assert not found.in_plane
 
 
+@pytest.mark.parametrize(
+    ("line", "heads"),
+    [
+        ("# theta_i [rad]: 0.523598776", "theta_r [deg],brdf"),
+        ("# theta_i = 0.523598776", "theta_r [rad],brdf"),
+        ("# elevation of the light: 60 deg", "theta_r,brdf"),
+        ("# cos(theta_i) = 0.866025404", "theta_r,brdf"),
+        ("# AOI=30°; λ=633nm", "theta_r,brdf"),
+    ],
+)
+def test_one_incidence_for_all_in_whatever_form(tmp_path, line, heads):
+    here = THETA_I == 30
+    angles = np.radians(THETA_R[here]) if "theta_r [rad]" in heads else THETA_R[here]
+    found = read(tmp_path, f"{line}\n{heads}\n" + lines(angles, PLANE[here]))
+    assert found.geom.theta_i_deg == pytest.approx(30, abs=1e-5)
+    np.testing.assert_allclose(found.brdf[:, 0], PLANE[here], rtol=1e-6)
+
+
 @pytest.mark.parametrize("line", ["# azimuth: 5 deg steps", "# phi = 90 and 270", "# phi = 180", "# phi: 0"])
 def test_what_is_no_azimuth_for_all_leaves_the_plane_of_incidence(tmp_path, line):
     agrees(read(tmp_path, f"{line}\ntheta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)))
