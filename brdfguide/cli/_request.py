@@ -58,12 +58,18 @@ def _hinted(kind: Any) -> list[tuple[Field, Any]]:
 def refuse(context: Context, *names: str, because: str) -> None:
     """Raises InputError for those of the options that were typed: here they could have no effect."""
     typed = [
-        each.opts[0] if each.param_type_name == "option" else each.human_readable_name
+        _as_typed(context, each) if each.param_type_name == "option" else each.human_readable_name
         for each in context.command.params
         if each.name in names and is_typed(context, each.name)
     ]
     if typed:
         raise InputError(f"{', '.join(typed[:-1])}{' and ' if typed[:-1] else ''}{typed[-1]}: {because}")
+
+
+def _as_typed(context: Context, option) -> str:
+    """The name by which an option was given: of a switch that is off, the one that turns it off."""
+    off = option.secondary_opts and context.params.get(option.name) is False
+    return (option.secondary_opts if off else option.opts)[0]
 
 
 def refuse_theme(context: Context) -> None:

@@ -35,6 +35,13 @@ def test_repeatable_options_and_switches_are_given_as_often_as_one_likes(capsys,
     assert told(capsys, "bench", "-m", "ggx", "-m", "lambertian", "--json")[0] == 0
 
 
+def test_a_switch_is_refused_by_the_name_that_was_typed(capsys):
+    words = ("fit", "examples/white_paper.csv", "examples/rough_plastic.csv", "-m", "lambertian")
+    for typed in ("--no-numbers", "--numbers"):
+        status, said = told(capsys, *words, typed)
+        assert (status, said[: len(typed) + 12]) == (2, f"brdfguide: {typed}:")
+
+
 def test_a_range_without_an_angle_is_refused(capsys):
     status, said = told(capsys, "evaluate", "ggx", "--theta-i", "80:10:5")
     assert status == 2

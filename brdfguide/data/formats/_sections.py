@@ -11,6 +11,7 @@ from ..columns.vocabulary import word_set
 from ._sheet import Sheet
 from .format import holds_number
 
+MOST_THINGS = 50  # that lines between the rows are asked for
 LONGEST = 200  # letters of a line that are looked at
 BETWEEN = re.compile(r"[;,](?!\d)")  # not a decimal comma
 NUMBER = re.compile(r"([-+]?(?:\d+(?:[.,]\d+)?|[.,]\d+)(?:[eE][-+]?\d+)?) ?([^\d]{0,20})")
@@ -52,7 +53,8 @@ def with_sections(table: Sheet) -> Sheet:
             if _is_told(name, value):
                 said.setdefault(name, []).append((line, value))
     taken = {understood(name).role for name in table.names} | {name.strip().lower() for name in table.names}
-    for name, each in said.items():
+    several = [(name, each) for name, each in said.items() if len({value for _, value in each}) > 1]
+    for name, each in several[:MOST_THINGS]:
         column, role = _column(table.lines, each), understood(name).role
         if column is None or name.lower() in taken or role is not None and role in taken:
             continue

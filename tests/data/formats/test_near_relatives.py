@@ -1,6 +1,8 @@
 """Tables as people write them, near relatives of those that were once misread: each gives back the surface that made
 it, or one sentence that says what is unclear."""
 
+from time import process_time
+
 import numpy as np
 import pytest
 
@@ -140,6 +142,13 @@ def test_remarks_between_the_rows_change_nothing(tmp_path):
     text = "theta_i,theta_r,brdf\n" + lines(THETA_I[:half], THETA_R[:half], PLANE[:half])
     text += "# warning: lamp restarted\n# temperature: 21.5 C\n" + lines(THETA_I[half:], THETA_R[half:], PLANE[half:])
     agrees(read(tmp_path, text + "# temperature: 22.5 C\n# checked: twice\n"))
+
+
+def test_thousands_of_remarks_between_the_rows_take_no_time(tmp_path):
+    rows_ = "".join(f"# k{k} = {k}\n# t = {k}\n{k % 80},{k % 85},0.1\n" for k in range(12000))
+    began = process_time()
+    assert len(read(tmp_path, "theta_i,theta_r,brdf\n" + rows_).brdf) == 12000
+    assert process_time() - began < 3
 
 
 def test_lines_between_the_rows_of_a_huge_table_are_refused(tmp_path, monkeypatch):
