@@ -375,3 +375,9 @@ def test_a_description_is_no_data(tmp_path):
     path.write_text("name: mug\ncomposition: porcelain\n")
     with pytest.raises(InputError, match="a description without measured values: `brdfguide recommend` takes it"):
         formats.read(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be", "utf-32", "utf-32-be"])
+def test_encodings_that_are_not_read_are_named(tmp_path, encoding):
+    with pytest.raises(InputError, match="text in UTF-32, or in UTF-16 without its mark, which is not read; save it"):
+        read(tmp_path, ("theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)).encode(encoding))
