@@ -5,9 +5,10 @@ import re
 AS_CSV = "export a table of theta_i, phi_i, theta_r, phi_r and BRDF as CSV"
 OPTIS = re.compile(rb"\s*OPTIS - ([A-Za-z ]{3,40}?) (?:surface )?file\b", re.IGNORECASE)
 INTEGRA = ("Source", "TypeSym", "TypeColorModel", "TypeData")  # words that its first lines begin with
+WIDE_LETTERS = rb"(?:[\t\n\r -~]\0{1,3}){6}|(?:\0{1,3}[\t\n\r -~]){6}"
 # first bytes as a pattern, what such a file is, what to do instead
 KINDS = (
-    (rb"(?:[\t\n\r -~]\0{1,3}){6}|(?:\0{1,3}[\t\n\r -~]){6}", "text in UTF-32, or in UTF-16 without its mark", "save it as UTF-8"),
+    (WIDE_LETTERS, "text in UTF-32, or in UTF-16 without its mark", "save it as UTF-8"),
     (rb"\xd0\xcf\x11\xe0", "an Excel workbook of before 2007 (.xls)", "save it as .xlsx or as CSV"),
     (rb"PK\x03\x04.{26}mimetypeapplication/vnd\.oasis", "an OpenDocument sheet", "save it as .xlsx or as CSV"),
     (rb"PK\x03\x04", "a ZIP archive", "unpack it and give the file inside"),
