@@ -83,7 +83,7 @@ Titles and comments count too: `theta_i: 45`, `AOI = 45 deg`, `wavelength_nm: 63
 `wavenumber = 1000 cm-1`, `2-5.7 um band`, `azimuth: 90 deg`, `quantity: brf`, `scale: 0.001`, `BRDF in 1e-3 sr^-1`,
 `angles in radians`, `sample rotated clockwise`, and a quantity by its words where the values' name has none (`BRF
 values of ...`). Lines between the rows that state such a thing again, or a sample, hold for the rows below them:
-`# theta_i = 30`, `wavelength: 650 nm`, `# sample: white`.
+`# theta_i = 30`, `wavelength: 650 nm`, `# sample: white`. So does an angle or wavelength that most rows leave empty.
 
 A column that marks rows (`mask`, `valid`, `flag`, `quality`) is asked about. `999` and the like, or all bits of a
 counter, several times and far above all other values, are marks for missing, as `-999`, `n.a.` and empty cells are. A

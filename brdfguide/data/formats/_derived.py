@@ -7,11 +7,30 @@ import numpy as np
 from ...finding import Finding
 from ..columns.facts import Column
 from ..columns.grammar import understood
+from ._angle_units import OF_DIRECTIONS
 from ._roles import first_names
 from ._sheet import Sheet
 from .format import Source
 
 SHOWN = 8  # angles in a note
+HEADS_OF_SCANS = (*OF_DIRECTIONS, "wavelength")
+MOST_HEADS = 0.5  # share of rows that have the angle of a scan, where only the first of each has
+
+
+def filled_down(table: Sheet, columns: list[Column], notes: list[Finding]) -> Sheet:
+    """The table with what stands at the head of each scan, and nowhere else, on every row of it; noted."""
+    values = table.values
+    for column in columns:
+        told = np.isfinite(values[:, column.place])
+        sparse = len(told) > 2 and told[0] and np.count_nonzero(told) < MOST_HEADS * len(told)
+        if column.role not in HEADS_OF_SCANS or not sparse or column.place in table.texts:
+            continue
+        last = np.maximum.accumulate(np.where(told, np.arange(len(told)), 0))
+        values = values.copy()
+        values[:, column.place] = values[last, column.place]
+        text = f"most cells of '{column.name[:40]}' are empty: they hold what stands above them"
+        notes.append(Finding("columns-read", text))
+    return table if values is table.values else replace(table, values=values)
 
 
 def _names_an_angle(name: str) -> bool:

@@ -30,6 +30,7 @@ def measurement_of(
     table, chosen = _groups.selected(source, table, options.select)
     notes += chosen
     columns = _roles.mapped(table, options, source)
+    table = _derived.filled_down(table, columns, notes)
     table, columns = _derived.one_angle_a_row(source, table, columns, notes)
     given = _roles.assigned(table, columns, options, source)
     found = row_directions(source, table, given, options, unit, notes)

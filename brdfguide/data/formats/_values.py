@@ -31,6 +31,7 @@ DECODED = {
 }
 SAME_SIZE = {"hdrf": "reflectance-factor", "radiance-factor": "reflectance-factor"}
 # what instruments and programs write for too bright or missing: all bits of 10 to 16, or nines
+MANY_READINGS, ONE_LINE = 4, 1.002  # wavelengths that differ by less than a laser's or a filter's reading does
 BITS = {1023.0, 4095.0, 16383.0, 32767.0, 65535.0}
 FULL_SCALES = BITS | {10.0**n - 1 for n in range(3, 10)} | {99.99, 999.9, 999.99, 9999.99}
 RELATIVE = {"dB": LN10 / 10, "log10": LN10, "ln": 1.0}  # a doubt in such units as a share of the value
@@ -137,7 +138,17 @@ def row_wavelengths(source: Source, table: Sheet, column: Column, notes) -> np.n
     if len(bad):
         text = f"column '{column.name}': found {given[bad[0]]:g}, wanted a wavelength of 100 nm to 100 um"
         raise source.error(text, int(table.lines[bad[0]]))
-    return um
+    return _one_line(column, um, notes)
+
+
+def _one_line(column: Column, um, notes) -> np.ndarray:
+    """One wavelength in place of many readings of it, which would each be a channel."""
+    if len(np.unique(um)) < MANY_READINGS or um.max() > ONE_LINE * um.min():
+        return um
+    middle = float(np.round(um.mean(), 6))
+    text = f"'{column.name[:40]}' varies by {1000 * np.ptp(um):.2g} nm: taken as one wavelength, {1000 * middle:g} nm"
+    notes.append(Finding("columns-read", text))
+    return np.full_like(um, middle)
 
 
 def _wave_unit(source, column: Column, waves, notes) -> float:

@@ -191,6 +191,32 @@ def test_what_is_no_azimuth_for_all_leaves_the_plane_of_incidence(tmp_path, line
     agrees(read(tmp_path, f"{line}\ntheta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)))
 
 
+@pytest.mark.parametrize("gap", ["", "NaN"])
+def test_an_incidence_at_the_head_of_each_scan_holds_for_it(tmp_path, gap):
+    first = np.r_[True, np.diff(THETA_I) != 0]
+    text = "theta_i,theta_r,wavelength_nm,brdf\n"
+    for new, i, r, f in zip(first, THETA_I, THETA_R, PLANE, strict=True):
+        text += f"{i if new else gap},{r:g},{'633' if new and i == 10 else gap},{f:.9g}\n"
+    found = read(tmp_path, text)
+    agrees(found)
+    assert found.geom.wavelength == pytest.approx(0.633)
+    assert "most cells of 'theta_i' are empty: they hold what stands above them" in str(found.findings)
+
+
+def test_rows_that_lack_an_angle_here_and_there_are_left_out(tmp_path):
+    text = lines(THETA_I, THETA_R, PLANE).splitlines()
+    text[7] = "," + text[7].partition(",")[2]
+    assert len(read(tmp_path, "theta_i,theta_r,brdf\n" + "\n".join(text)).brdf) == len(PLANE) - 1
+
+
+def test_readings_of_one_laser_are_one_wavelength(tmp_path):
+    """Of a column that varies by 0.1 nm, seed 3."""
+    nm = 633 + 0.1 * np.random.default_rng(3).random(len(PLANE))
+    found = read(tmp_path, "theta_i,theta_r,wavelength_nm,brdf\n" + lines(THETA_I, THETA_R, nm, PLANE))
+    assert found.geom.wavelength == pytest.approx([nm.mean() / 1000], rel=1e-6)
+    agrees(found)
+
+
 # --- what was done to the numbers -------------------------------------------------------------------------
 
 
