@@ -15,6 +15,7 @@ from .exact_surface import ExactReading, ExactSurface, RoundingDecides
 
 SMALLEST = mpf("1e-300")  # a law that gives less is taken here
 LARGEST = 1e100  # [1/sr]; beyond, and below its inverse, is no measurement
+PER_MEDIAN = mpf("1.4826")  # standard deviation of a normal distribution over its median size
 LIMIT_DEG = 80  # beyond, S does not look
 APART_DEG = 0.25  # between two incidences of scans
 HELD_DEG = 1.0  # how far an incidence wanders that was held
@@ -41,6 +42,7 @@ class Readings:
     taken: list[list[bool]] | None = None  # where they are told, if that is known already
     faults: bool = False  # what the instrument may do unnoticed was counted as doubt
     beyond: tuple[tuple[float, float], ...] = ()  # what theta_i and theta_r have beyond the digits that are read [deg]
+    as_read: tuple[tuple[float, ...], ...] | None = None  # values before any was left out; None where that is not known
 
     @cached_property
     def least(self) -> list:
@@ -60,7 +62,7 @@ class Readings:
         """Where a value is positive, of a size, above the horizon and clear of the dark level."""
         return self.taken or [
             [1 / LARGEST < v < LARGEST and v >= limit and up for v, limit in zip(row, self.limits, strict=True)]
-            for row, up in zip(self.values, self._lit, strict=True)
+            for row, up in zip(self.values, self.lit, strict=True)
         ]
 
     @cached_property
@@ -71,11 +73,11 @@ class Readings:
                 known or limit > 0 and up and abs(v) < LARGEST
                 for v, limit, known in zip(row, self.limits, told, strict=True)
             ]
-            for row, told, up in zip(self.values, self.told, self._lit, strict=True)
+            for row, told, up in zip(self.values, self.told, self.lit, strict=True)
         ]
 
     @cached_property
-    def _lit(self) -> list[bool]:
+    def lit(self) -> list[bool]:
         return [theta_i < 90 and theta_r < 90 for theta_i, _, theta_r, _ in self.angles]
 
     @cached_property
@@ -196,13 +198,31 @@ def noise_of_values(data: Readings, relative: float):
     """rms of ln by which single values scatter: from their relative doubt and the dark level's, or as it is stated."""
     told = [(v, doubt) for row in data.exact for v, doubt in zip(row, data.doubt, strict=True) if v is not None]
     scatter = sqrt(mpf(relative) ** 2 + fsum((mpf(doubt) / v) ** 2 for v, doubt in told) / len(told))
+    return max(scatter, _stated(data))
+
+
+def noise_of_residuals(data: Readings, rows: list[list]):
+    """The same where no value can be compared with others: from second differences of residuals along the scans."""
+    along = [rows[place] for place in scan_order(data)]
+    steps = [
+        abs(a - 2 * b + c)
+        for three in zip(along, along[1:], along[2:], strict=False)
+        for a, b, c in zip(*three, strict=True)
+        if a is not None and b is not None and c is not None
+    ]
+    scatter = PER_MEDIAN * median(steps) / sqrt(6) if steps else mpf(0)
+    return max(scatter, _stated(data))
+
+
+def _stated(data: Readings):
+    """The relative error that is stated of a value, the median; 0 where none is."""
     stated = [
         error / value
         for errors, values, known in zip(data.stated or (), data.values, data.told, strict=False)
         for error, value, clear in zip(errors, values, known, strict=True)
         if clear and 0 <= error < LARGEST
     ]
-    return max(scatter, mpf(median(stated))) if stated else scatter
+    return mpf(median(stated)) if stated else mpf(0)
 
 
 def on_scales(rows: list[list], data: Readings) -> dict[str, mpf]:

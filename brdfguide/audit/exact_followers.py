@@ -8,9 +8,10 @@ probable together    (ours)
 
 from collections.abc import Mapping
 from functools import cache, lru_cache
+from math import inf
 from typing import Protocol
 
-from mpmath import exp, expm1, fsum, log, mp, mpf, sqrt
+from mpmath import exp, expm1, fsum, log, mp, mpf, radians, sqrt
 
 from .exact_errors import SMALLEST, Readings
 from .exact_surface import ExactReading, ExactSurface
@@ -22,6 +23,7 @@ WIDEST_DEG = 85.0  # R-max looks no farther
 STEPS = 170  # of its scan, from one side to the other
 COARSELY, BESIDE = 10, 3  # of these steps
 NEAR_DEG = 3.0  # the mirror direction was measured
+MOST_COMPARED, HIGHEST_DEG = 120, 88.0  # incidences that are looked at for growth
 MOST_HELD = 64  # incidences, beyond which none was held
 ALIKE = 1e-9  # deg
 HALF_A_STEP = 0.501  # of 255, and what six digits of a colour leave open
@@ -47,6 +49,22 @@ def copies(answer: dict, found: Comparisons) -> None:
         for key, value in (row.get("typed") or {}).items():
             if key in row["parameters"]:
                 found.copy(f"ranking[{place}].typed.{key}", value, row["parameters"][key]["value"])
+
+
+def ranks(answer: dict, found: Comparisons) -> None:
+    """Rows by error on the answer's scale, to five digits, then by free numbers; those that tie are first together.
+    Rows that are alike in both may stand either way round."""
+    rows, metric = answer["ranking"], answer["metric"]
+    keys = [(_five(row["errors"].get(metric)), row["free_parameters"]) for row in rows]
+    ties = sum(bool(row["tied"]) for row in rows)
+    for place, (row, key) in enumerate(zip(rows, keys, strict=True)):
+        first, last = sum(each < key for each in keys) + 1, sum(each <= key for each in keys)
+        right = 1 if row["tied"] and ties > 1 else min(max(row["rank"], first), last)
+        found.check(f"ranking[{place}].rank", row["rank"], right)
+
+
+def _five(error: float | None) -> float:
+    return inf if error is None else float(f"{error:.5g}")
 
 
 def reflectance_errors(row: dict, place: str, found: Comparisons) -> None:
@@ -84,6 +102,8 @@ def exact_growth(each: RowOfAnswer, data: Readings, found: Comparisons) -> None:
     if told is None or told["r_max"] is None or len(told["theta_i_deg"]) != 2:
         return
     channel, place = len(data.wavelengths) // 2, f"{each.place}.growth"
+    for end, right in enumerate(_compared_incidences(data)):
+        found.check(f"{place}.theta_i_deg[{end}]", told["theta_i_deg"][end], right)
     low, high = (_scan(data, theta, channel) for theta in told["theta_i_deg"])
     if low is None or high is None:
         return
@@ -105,6 +125,31 @@ def exact_growth(each: RowOfAnswer, data: Readings, found: Comparisons) -> None:
         if abs(right - mpf(told["r_max"])) <= CLOSE * right:
             break
     found.check(f"{place}.r_max", told["r_max"], right)
+
+
+@lru_cache(maxsize=4)
+def _compared_incidences(data: Readings) -> tuple[float, ...]:
+    """The lowest and the highest incidence [deg] at which the mirror direction was measured, of those with any value
+    where there are no two such; none where none was held."""
+    channel = len(data.wavelengths) // 2
+    if len({round(10 * each[0]) for each in data.angles}) > MOST_COMPARED:
+        return ()
+    known = [row for row, told in enumerate(data.told) if told[channel] and data.angles[row][0] < HIGHEST_DEG]
+    mirrors = [row for row in known if _off_plane(data.angles[row]) < NEAR_DEG and _near_mirror(data, row)]
+    for rows in (mirrors, known):
+        angles = {round(10 * data.angles[row][0]) / 10 for row in rows}
+        if len(angles) > 1:
+            return min(angles), max(angles)
+    return ()
+
+
+def _near_mirror(data: Readings, row: int) -> bool:
+    return 2 - 2 * data.sights[row].pair.cos_m <= radians(NEAR_DEG) ** 2
+
+
+def _off_plane(angles: tuple[float, float, float, float]) -> float:
+    turn = (angles[3] - angles[1]) % 180
+    return min(turn, 180 - turn) if min(angles[0], angles[2]) > ALIKE else 0.0
 
 
 def _scan(data: Readings, theta: float, channel: int) -> list[int] | None:

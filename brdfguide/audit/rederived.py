@@ -43,15 +43,15 @@ class Comparisons:
             allowed = relative * abs(float(right)) + absolute + self.slack * max(1.0, abs(float(right)))
             self.derived.append(Rederived(place, float(found), float(right), allowed))
 
-    def rounded(self, place: str, found, right, digits: int = TOLD) -> None:
-        """One that was printed with so many digits; either neighbour where it lies between two."""
+    def rounded(self, place: str, found, right, digits: int = TOLD, close: float = CLOSE) -> None:
+        """One that was printed with so many digits; either neighbour where it lies between two, `close` to both."""
         if self.slack:
             self.check(place, found, right, 10.0 ** (1 - digits), 100 * self.slack)
             return
         if abs(float(right)) < EXACT_MODEL:
             self.check(place, found, right, absolute=ROUNDED)
             return
-        ends = [float(f"{float(right) * (1 + step):.{digits}g}") for step in (-CLOSE, CLOSE)]
+        ends = [float(f"{float(right) * (1 + step):.{digits}g}") for step in (-close, close)]
         self.check(place, found, ends[0] if found == ends[0] else ends[1], EXACT)
 
     def copy(self, place: str, found, original) -> None:

@@ -2,8 +2,9 @@
 
 Parameters are taken as printed; from them, with mpmath and the laws of `textbook`, follow residuals, errors,
 differences and what stands beside them: standard errors, growth, the price out of the plane, what is told twice; from
-the numbers found without a group of incidences the held-out errors. What a fit found on its way (noise, floors) cannot
-follow from its answer: that is said, and only the answer's digest holds it.
+the numbers found without a group of incidences the held-out errors; from the data alone the noise of single values and
+the floor under every law. What a fit found on its way cannot follow from its answer: that is said, and only the
+answer's digest holds it.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,14 +18,17 @@ from ..errors import InputError
 from ..records import dataclass
 from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
+from .exact_floor import compare_floor
 from .exact_held_out import compare_held_out
 from .exact_instrument import spread_of_gains, undrifted
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
+from .exact_noise import compare_noise
 from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
 from .rederived import Comparisons, Rederived
 
 DIGITS = 30  # of the arithmetic
 ROUNDED = 1e-12  # deg, of a double near 90
+LEFT_OUT = {"spikes", "dark-edge"}  # findings that take values out of a fit
 WHITE = 39  # L* by which white changes with ln f, 116/3
 ROUNDED_L = 1e-12  # L* that rounding leaves of a model that is exact
 
@@ -55,9 +59,7 @@ def verify(
     with workdps(DIGITS):
         _data_block(answer["data"], data, found)
         found.check("noise.values_told", answer["noise"].get("values_told"), sum(map(sum, data.told)))
-        if answer["noise"].get("relative") is not None and "absolute_per_sr" in answer["noise"]:
-            noise = exact_errors.noise_of_values(data, answer["noise"]["relative"])
-            found.rounded("noise_rms_ln", answer["noise_rms_ln"], noise, 6)
+        compare_noise(answer, data, found)
         grey = _grey_ring(answer, data)
         rows = {}
         drifted = any(_has(row, "instrument") for row in answer["ranking"])
@@ -81,18 +83,21 @@ def verify(
                 left[row["candidate"]] = "its lobe ends where some directions lie: rounding decides on which side"
         for each in rows.values():
             each.errors(found)
+        _noise_and_floor(answer, rows, data, found)
         _differences(rows, len(rows) == len(answer["ranking"]), found)
         exact_followers.price(answer, {each.row["candidate"]: each for each in rows.values()}, data, found)
         if only is None:
             _orders(answer, found)
+            exact_followers.ranks(answer, found)
             exact_followers.copies(answer, found)
             exact_followers.programs(answer, found)
     used = sum(map(_parameters_of, answer["ranking"]))
     return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
 
 
-def readings_of(measurement: Measurement, answer: dict) -> Readings:
-    """A measurement as it was read for the fit, with what the answer says of its values.
+def readings_of(measurement: Measurement, answer: dict, before: Measurement | None = None) -> Readings:
+    """A measurement as it was read for the fit, with what the answer says of its values; `before` anything was left out
+    of it, where something was.
 
     Raises InputError where the answer has other channels.
     """
@@ -105,7 +110,7 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
     beyond = (_beyond(geom.theta_i_deg, geom.theta_i), _beyond(geom.theta_r_deg, geom.theta_r))
     wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
     wavelengths = wavelengths if isinstance(wavelengths, list) else [wavelengths]
-    codes = {each["code"] for each in answer["data"]["findings"]}
+    codes = _codes(answer)
     errors = measurement.stated_errors
     return Readings(
         angles=tuple(zip(*(column.ravel().tolist() for column in columns), strict=True)),
@@ -121,7 +126,24 @@ def readings_of(measurement: Measurement, answer: dict) -> Readings:
         robust="weighed-robustly" in codes,
         faults=bool(measurement.otherwise),
         beyond=tuple(zip(*(column.ravel().tolist() for column in beyond), strict=True)),
+        as_read=_as_read(measurement, lacks_some(answer), before),
     )
+
+
+def lacks_some(answer: dict) -> bool:
+    """Whether values may have been left out of the fit."""
+    return not _codes(answer).isdisjoint(LEFT_OUT)
+
+
+def _codes(answer: dict) -> set[str]:
+    return {each["code"] for each in answer["data"]["findings"]}
+
+
+def _as_read(measurement: Measurement, lacks: bool, before: Measurement | None):
+    """The values before anything was left out; None where that is not known."""
+    if before is not None and len(before.brdf) == len(measurement.brdf):
+        return tuple(map(tuple, before.brdf.tolist()))
+    return None if lacks else tuple(map(tuple, measurement.brdf.tolist()))
 
 
 def _parameters_of(row: dict) -> int:
@@ -158,6 +180,7 @@ def _data_block(block: dict, data: Readings, found: Comparisons) -> None:
     """What the answer says of the data themselves."""
     found.check("data.samples", block["samples"], len(data.angles))
     found.check("data.values", block["values"], len(data.angles) * len(data.wavelengths))
+    found.check("data.missing", block.get("missing"), sum(not known for row in data.looked_at for known in row))
     for name, place in (("theta_i_deg", 0), ("theta_r_deg", 2)):
         angles = [each[place] for each in data.angles]
         found.check(f"data.{name}[0]", block[name][0], min(angles))
@@ -283,6 +306,27 @@ FOLLOWS: dict[str, Callable] = {  # numbers beside the parameters -> how they fo
 }
 
 
+def _noise_and_floor(answer: dict, rows: dict[int, _Row], data: Readings, found: Comparisons) -> None:
+    """By how much single values scatter, from their doubts or, where those are not known, from the first row's
+    residuals; and the floor under the row that errs least."""
+    told, floor = answer["noise"], answer.get("floor")
+    first = next((each for each in rows.values() if each.row["rank"] == 1 and each.row["behind"] == 0), None)
+    noise = None
+    if told.get("relative") is not None and "absolute_per_sr" in told:
+        noise = exact_errors.noise_of_values(data, told["relative"])
+    elif "absolute_per_sr" in told and first is not None:
+        noise = exact_errors.noise_of_residuals(data, first.residuals)
+    if noise is not None:
+        found.rounded("noise_rms_ln", answer["noise_rms_ln"], noise, 6)
+    if floor is None:
+        return
+    if noise is not None:
+        found.rounded("floor.noise", floor["noise"], noise)
+    under = next((each for each in rows.values() if each.row["candidate"] == floor["candidate"]), None)
+    if under is not None and not _has(under.row, "instrument") and not under.surface.slack:
+        compare_floor(floor, under.surface, under.residuals, data, found)
+
+
 def _differences(rows: dict[int, _Row], complete: bool, found: Comparisons) -> None:
     """How far each row lies behind the best, with its standard error, and how different the two look. Of all rows the
     best is the one that says that it is least behind."""
@@ -313,11 +357,6 @@ def _orders(answer: dict, found: Comparisons) -> None:
         right = row["errors"].get(name)
         if right is not None:
             found.check(f"{place}.{key}", entry[key], right)
-    floor, block = answer.get("floor"), answer["data"]
-    if floor is None or floor["candidate"] not in rows or _has(rows[floor["candidate"]], "instrument"):
-        return
-    if (floor["directions"], floor["channels"]) == (block["samples"], block["channels"]):  # else it looked at some
-        found.rounded("floor.model", floor["model"], rows[floor["candidate"]]["rms_ln"])
 
 
 def _entries(answer: dict) -> Iterator[tuple[str, dict]]:

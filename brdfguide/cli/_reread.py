@@ -25,6 +25,23 @@ def reread(file: Path, told: Mapping, answer_file: Path) -> Measurement:
     With `--anyway` nothing was left out: so it was where that gives the answer's count of missing values, and without
     it does not. Raises InputError for an option of reading that there is not, and as `formats.read`.
     """
+    measurement = _as_said(file, told, answer_file)
+    try:
+        found = examine.prepared(measurement)
+    except (InputError, NoAnswer):  # they contradict themselves, or lie outside the guide, and were answered for
+        return examine.prepared(measurement, anyway=True)
+    if found.censored == told["missing"]:
+        return found
+    whole = examine.prepared(measurement, anyway=True)
+    return whole if whole.censored == told["missing"] else found
+
+
+def reread_whole(file: Path, told: Mapping, answer_file: Path) -> Measurement:
+    """The same with what a fit left out: spikes, cut-off edges. Raises InputError as `reread`."""
+    return examine.corrected(_as_said(file, told, answer_file), anyway=True)
+
+
+def _as_said(file: Path, told: Mapping, answer_file: Path) -> Measurement:
     known = {each.name for each in fields(Reading)}
     said = told.get("read_with") or {}
     if unknown := sorted(said.keys() - known):
@@ -34,11 +51,4 @@ def reread(file: Path, told: Mapping, answer_file: Path) -> Measurement:
     measurement = formats.read(file, **{**said, **typed})
     if measurement.solid_angle is None and told.get("solid_angle_sr"):
         measurement = replace(measurement, solid_angle=told["solid_angle_sr"])
-    try:
-        found = examine.prepared(measurement)
-    except (InputError, NoAnswer):  # they contradict themselves, or lie outside the guide, and were answered for
-        return examine.prepared(measurement, anyway=True)
-    if found.censored == told["missing"]:
-        return found
-    whole = examine.prepared(measurement, anyway=True)
-    return whole if whole.censored == told["missing"] else found
+    return measurement

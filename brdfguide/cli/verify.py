@@ -37,7 +37,7 @@ def verify(request: VerifyRequest) -> None:
     from ..report.documents.digest import digest_holds
     from ..report.documents.verification import verification_document
     from ..report.text.verification import verification_text
-    from ._reread import reread
+    from ._reread import reread, reread_whole
 
     try:
         from ..audit import verification
@@ -45,7 +45,9 @@ def verify(request: VerifyRequest) -> None:
         raise InputError("verify needs the package mpmath: pip install 'brdfguide[verify]'") from None
     document = _answer(request.answer_file, request.model)
     file = request.data or _its_data(document["data"]["file"], request.answer_file)
-    data = verification.readings_of(reread(file, document["data"], request.answer_file), document)
+    read, some = reread(file, document["data"], request.answer_file), verification.lacks_some(document)
+    whole = reread_whole(file, document["data"], request.answer_file) if some else None
+    data = verification.readings_of(read, document, whole)
     with progress(len(document["ranking"]), request.quiet) as tell:
         found = verification.verify(document, data, request.model, tell)
     result = verification_document(found, str(request.answer_file), str(file), digest_holds(document))

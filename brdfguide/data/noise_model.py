@@ -94,7 +94,7 @@ def two_parts(level, departure, least: int = LEAST_IN_BIN, shows: float = SHOWS)
     bins = min(len(level) // least, MOST_BINS)
     if bins < LEAST_BINS:
         return None
-    parts = np.array_split(np.argsort(level), bins)
+    parts = np.array_split(np.argsort(level, kind="stable"), bins)
     levels = np.array([np.median(level[part]) for part in parts])
     least_size = np.maximum(1e-12 * levels, TINY)
     sizes = np.maximum([SIGMA_PER_MEDIAN * np.median(departure[part]) for part in parts], least_size)

@@ -32,11 +32,13 @@ APART = ("parameters", "flags", "typed", "held_out_fits")  # where a key has dot
 MODELS = ("lambertian+ggx", "lambertian+he-torrance", "lambertian+lafortune:2", "lambertian+ward")
 CODE = (
     *("textbook", "textbook_more", "textbook_grain", "exact_surface", "exact_errors", "exact_followers", "rederived"),
-    *("exact_intervals", "exact_held_out", "exact_instrument", "verification", "answer_shape"),
+    *("exact_intervals", "exact_held_out", "exact_instrument", "verification", "answer_shape", "exact_floor"),
+    *("exact_noise", "exact_exchange", "exact_two_parts"),
 )
 SHARED = {
     *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".exact_held_out", ".rederived"),
-    *(".exact_instrument", "..errors", "..records", "..data.measurement"),
+    *(".exact_instrument", ".exact_noise", ".exact_exchange", ".exact_two_parts", ".exact_floor"),
+    *("..errors", "..records", "..data.measurement"),
 }
 
 
@@ -196,6 +198,8 @@ def test_a_changed_digit_of_any_derived_number_is_found(answer):
             target = changed["ranking"][row]
             for name in path:
                 target = target[name]
+            if last.endswith("]"):
+                target, last = target[last.partition("[")[0]], int(last[-2])
             target[last] = _one_digit_off(target[last])
             assert place in [each.place for each in verification.verify(changed, data, only).wrong]
 
