@@ -58,6 +58,7 @@ def compare_noise(answer: dict, data: Readings, found: Comparisons) -> bool:
         return False
     pooled = _pooled(departures)
     relative = _nearest([pair[0] for pair in pooled], told["relative"]) if pooled else None
+    pooled = [pair for pair in pooled if pair[0] == relative]
     found.check("noise.relative", told["relative"], mpf("nan") if relative is None else relative, absolute=LOST)
     try:
         exchanged = doubts_of_exchange(data, seen.values, seen.ln, told.get("dark_level_per_sr") is not None)
@@ -96,11 +97,7 @@ def _pooled(departures: list[list[Departure | None]]) -> list:
 def _absolute(answer: dict, seen: ValuesAsRead, departures, pooled: list, exchanged: list, found: Comparisons) -> None:
     """The dark level's doubt in each channel, and from where on values are told."""
     told, channels = answer["noise"]["absolute_per_sr"], range(len(seen.data.wavelengths))
-    of_all = _nearest([pair[1] for pair in pooled], told[0] if len(told) == 1 else 0) if pooled else mpf(0)
-    several = [[of_all] for _ in channels]
-    if any(pair[1] for pair in pooled):
-        each = [relative_and_absolute([row[c] for row in departures if row[c] is not None]) for c in channels]
-        several = [[pair[1] for pair in pairs] or [of_all] for pairs in each]
+    several = [_of_channel([row[c] for row in departures], pooled) for c in channels]
     floors = [dict(each["numbers"])["floor_per_sr"] for each in answer["data"]["findings"] if each["code"] == "floor"]
     least = max(mpf(max(floors, default=0.0)) / DETECTED, _plateau(seen))
     below = _negative(seen)
@@ -121,6 +118,15 @@ def _absolute(answer: dict, seen: ValuesAsRead, departures, pooled: list, exchan
     for c, limit in enumerate(answer["noise"].get("told_from_per_sr") or ()):
         right = CLEAR * mpf(told[c]) if matters else mpf("nan")
         found.check(f"noise.told_from_per_sr[{c}]", limit, right)
+
+
+def _of_channel(departures: list[Departure | None], pooled: list) -> list:
+    """Absolute doubts of one channel that are as good: its own where it has enough departures, none where all channels
+    together show none."""
+    of_all = [pair[1] for pair in pooled] or [mpf(0)]
+    own = [pair[1] for pair in relative_and_absolute([each for each in departures if each is not None])]
+    shown = [each for each in of_all if each]
+    return [each for each in of_all if not each] + (own or shown if shown else [])
 
 
 def _nearest(rights: list, told):
