@@ -24,6 +24,7 @@ COMMANDS = (
     f"fit {PLASTIC} --json",
     f"fit {PAPER} -m lambertian+ggx,lambertian+lafortune:2 --json --no-timing --next --numbers --scene default",
     f"fit {PAPER} -m lambertian --json --no-timing --as gltf",
+    f"fit {PAPER} -m oren-nayar+ggx --json --no-timing --theta-max 60",
     f"fit {ALUMINIUM} -m ggx --kind metal --json --baselines --export mitsuba:{{out}}/it.xml --aperture-deg 1",
     "fit {abg} --json --no-timing",
     "fit {grain} -m ggx-aniso --kind metal --json --no-timing",
@@ -118,7 +119,7 @@ NULLABLE = {  # null where the data do not say it, which the commands above all 
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
     *("r_mirror_data", "r_max_data", "gloss_gu", "held_out_rms_ln", "seen", "stderr", "known_to", "shows_from"),
     *("measured_rms_ln", "measured_off_percent", "key", "energy", "reciprocity", "off_plane", "missing"),
-    *("noise_relative", "with_it", "held_out_fits", "at_mirror", "greatest", "high", "needs", "relative"),
+    *("noise_relative", "with_it", "held_out_fits", "instrument", "at_mirror", "greatest", "high", "needs", "relative"),
 }
 OPTIONAL = {  # there or not, as was asked
     *("time_per_sample_ns", "ns_per_sample", "fit_time_s", "on_front", "standard_error_left", "differ_by_noise"),
@@ -151,6 +152,9 @@ MEANINGS = {
     "held_out_rms_ln": "the same at incidence angles that the fit did not see",
     "held_out_fits": "what was found without each group of incidences, from which these errors follow; null where the "
     "sample was turned, and where not all directions and channels were looked at",
+    "instrument": "what the instrument did, fitted beside the model: errors are without it; null where nothing was",
+    "zero_deg": "the true reflected angle is the reported one plus this [deg]",
+    "ln_gains": "ln of how much too bright the values of each scan were, in the order of theta_i_deg",
     "behind": "how much larger its error is than the best one's",
     "behind_se": "standard error of that, over blocks of neighbouring directions",
     "tied": "cannot be told from the best by these data",

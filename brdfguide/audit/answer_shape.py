@@ -53,11 +53,21 @@ class PrintedFold:
 
 
 @dataclass(frozen=True)
+class PrintedInstrument:
+    """What an instrument did, as it was fitted beside a model."""
+
+    zero_deg: float
+    theta_i_deg: tuple[float, ...]
+    ln_gains: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class PrintedRow:
     """One candidate."""
 
     model: str
     candidate: str
+    rank: int
     tied: bool
     off_percent: Number
     rms_ln: Number
@@ -75,6 +85,7 @@ class PrintedRow:
     held_out_rms_ln: Number = None
     held_out_highest: PrintedHighest | None = None
     held_out_fits: tuple[PrintedFold, ...] | None = None
+    instrument: PrintedInstrument | None = None
 
 
 @dataclass(frozen=True)
@@ -96,8 +107,12 @@ class PrintedData:
 
 @dataclass(frozen=True)
 class PrintedNoise:
-    """From which value on errors are told."""
+    """What single values are worth, and from which on errors are told."""
 
+    relative: Number = None
+    absolute_per_sr: tuple[float, ...] | None = None
+    dark_level_per_sr: tuple[float, ...] | None = None
+    dark_level_stderr_per_sr: tuple[float, ...] | None = None
     told_from_per_sr: tuple[float, ...] | None = None
 
 
@@ -123,6 +138,16 @@ class PrintedFloor:
 
     candidate: str
     model: Number
+    smooth: Number = None
+    factored: Number = None
+    noise: Number = None
+    coefficients: Number = None
+    gcv: Number = None
+    residual: Number = None
+    reducible: Number = None
+    by_form: Number = None
+    beyond_form: Number = None
+    directions: int | None = None
 
 
 @dataclass(frozen=True)
@@ -186,6 +211,7 @@ class PrintedFit:
     ranking: tuple[PrintedRow, ...]
     noise: PrintedNoise
     recommended: str
+    metric: str
     scales: dict[str, PrintedScale]
     seen_order: tuple[PrintedEntry, ...]
     seen_weights: str

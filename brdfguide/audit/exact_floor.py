@@ -8,6 +8,7 @@ in doubles, where each is told from the next by far more than they lose (Craven 
 """
 
 from collections import Counter
+from math import nan
 from statistics import median
 
 import numpy as np
@@ -55,23 +56,24 @@ def compare_floor(
     model = _rms([(w, residuals[row][c]) for row, w in zip(rows, counted, strict=True) for c in columns])
     scale = min(SCALE, _alpha(surface, data) / NARROWER)
     splines = [_products(data.sights[row], scale) for row in rows]
-    each = [_smooth(splines, [data.ln[row][c] for row in rows], counted, floor["lambda"]) for c in columns]
+    told = floor["lambda"] if isinstance(floor.get("lambda"), float | int) else nan
+    each = [_smooth(splines, [data.ln[row][c] for row in rows], counted, told) for c in columns]
     counts = [len(one.left) for one in each]
     together = sqrt(fsum(n * one.gcv**2 for n, one in zip(counts, each, strict=True)) / sum(counts))
     smooth = min(together, model)
-    found.check("floor.directions", floor["directions"], len(rows))
+    found.check("floor.directions", floor.get("directions"), len(rows))
     rights = {"model": model, "smooth": smooth, "gcv": smooth, "lambda": median(one.stiffness for one in each)}
     rights["coefficients"] = fsum(one.edf for one in each) / len(each)
     rights["residual"] = sqrt(fsum(w * square for one in each for w, square in one.left) / sum(counts))
     rights["reducible"] = _removed(smooth, model)
     for name, right in rights.items():
-        found.rounded(f"floor.{name}", floor[name], right, DIGITS, CLOSE)
-    if floor["factored"] is None:
+        found.rounded(f"floor.{name}", floor.get(name), right, DIGITS, CLOSE)
+    if floor.get("factored") is None:
         return
     by_form, steps = _removed(mpf(floor["factored"]), model), mpf(10) ** -DIGITS * 5
     allowed = float(2 * steps * (mpf(floor["factored"]) / model) ** 2 + steps)
-    found.check("floor.by_form", floor["by_form"], by_form, 0.0, allowed)
-    found.check("floor.beyond_form", floor["beyond_form"], max(rights["reducible"] - by_form, mpf(0)), 0.0, allowed)
+    found.check("floor.by_form", floor.get("by_form"), by_form, 0.0, allowed)
+    found.check("floor.beyond_form", floor.get("beyond_form"), max(rights["reducible"] - by_form, mpf(0)), 0.0, allowed)
 
 
 def _removed(left, model):

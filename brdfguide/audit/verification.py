@@ -20,7 +20,7 @@ from . import exact_errors, exact_followers
 from .exact_errors import Readings, Ring
 from .exact_floor import compare_floor
 from .exact_held_out import compare_held_out
-from .exact_instrument import spread_of_gains, undrifted
+from .exact_instrument import compare_instrument, undrifted
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
 from .exact_noise import compare_noise
 from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
@@ -30,6 +30,7 @@ DIGITS = 30  # of the arithmetic
 ROUNDED = 1e-12  # deg, of a double near 90
 LEFT_OUT = {"spikes", "dark-edge"}  # findings that take values out of a fit
 WHITE = 39  # L* by which white changes with ln f, 116/3
+LEAST_CHANCE = 1e-305  # of which a double has all its digits
 ROUNDED_L = 1e-12  # L* that rounding leaves of a model that is exact
 
 
@@ -62,12 +63,12 @@ def verify(
         compare_noise(answer, data, found)
         grey = _grey_ring(answer, data)
         rows = {}
-        drifted = any(_has(row, "instrument") for row in answer["ranking"])
+        drifted = any(_has(row, "instrument") or row.get("instrument") for row in answer["ranking"])
         for place, row in enumerate(answer["ranking"]):
             progress(row["candidate"])
             if only is not None and only not in (row["candidate"], row["model"]):
                 continue
-            if drifted and not (_has(row, "instrument") or _has(row, "coarse")):
+            if drifted and not ("instrument" in row or _has(row, "instrument") or _has(row, "coarse")):
                 left[row["candidate"]] = "what the instrument did beside it is not in the answer"
                 continue
             if drifted and any(data.limits):
@@ -147,9 +148,11 @@ def _as_read(measurement: Measurement, lacks: bool, before: Measurement | None):
 
 
 def _parameters_of(row: dict) -> int:
-    """How many numbers of one row are parameters: its own, and those found without a group of incidences."""
+    """How many numbers of one row are parameters: its own, those found without a group of incidences, and those of an
+    instrument beside it."""
     values = [entry["value"] for entry in row["parameters"].values()]
     values += [value for fold in row.get("held_out_fits") or [] for value in fold["values"].values()]
+    values += (row.get("instrument") or {}).values()
     return sum(map(_size, values))
 
 
@@ -203,9 +206,10 @@ class _Row:
     def __init__(self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None, metric: str):
         self.row, self.place, self.grey, self.metric = row, place, grey, metric
         self.surface = surface_of(row["model"], row["parameters"])
-        drift = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
-        left = data if drift is None else undrifted(data, drift)
-        self.data = data if drift is None else replace(data, taken=left.told)
+        by_flag = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
+        self.drift = row.get("instrument") or by_flag
+        left = data if self.drift is None else undrifted(data, self.drift)
+        self.data = data if self.drift is None else replace(data, taken=left.told)
         self.residuals = exact_errors.exact_residuals(self.surface, left)
         self.rms = exact_errors.exact_rms(self.residuals, data.share)
         self.lightness = grey[0].lightness(self.residuals, self.surface) if grey else None
@@ -229,7 +233,7 @@ class _Row:
         fitted = (_size(each["value"]) for each in row["parameters"].values() if each.get("fitted"))
         found.check(f"{place}.free_parameters", row["free_parameters"], sum(fitted))
         self._parameters(found)
-        if not _has(row, "instrument") and not found.slack:  # what gains and zero leave open was found on the way
+        if self.drift is None and not found.slack:  # what gains and zero leave open was found on the way
             fitted_row = FittedRow(
                 row["parameters"], self.surface, self.residuals, not _has(row, "coarse"), self.metric
             )
@@ -237,12 +241,10 @@ class _Row:
         exact_followers.reflectance_errors(row, place, found)
         exact_followers.exact_growth(self, self.data, found)
         compare_held_out(row, place, self.data, found)
+        compare_instrument(row, place, found)
         for flag in row["flags"]:
             if flag["code"] == "discrepancy":
                 self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)
-            if flag["code"] == "instrument":
-                spread = spread_of_gains(flag["numbers"])
-                found.check(f"{place}.flags.instrument.gains_rms", flag["numbers"]["gains_rms"], spread)
 
     def _discrepancy(self, told: dict, place: str, found: Comparisons) -> None:
         """How neighbours err together, and what follows: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""
@@ -251,7 +253,7 @@ class _Row:
         part = plain * sqrt(mpf(told["correlation"]))
         found.check(f"{place}.systematic_rms_ln", told["systematic_rms_ln"], part)
         found.check(f"{place}.percent", told["percent"], 100 * expm1(min(part, mpf(300))))
-        found.check(f"{place}.chance", told["chance"], erfc(mpf(told["z"]) / sqrt(2)) / 2, 1e-7, absolute=0.0)
+        found.check(f"{place}.chance", told["chance"], erfc(mpf(told["z"]) / sqrt(2)) / 2, absolute=LEAST_CHANCE)
 
     def _parameters(self, found: Comparisons) -> None:
         """What follows from its parameters, and how well those are known."""
@@ -321,9 +323,9 @@ def _noise_and_floor(answer: dict, rows: dict[int, _Row], data: Readings, found:
     if floor is None:
         return
     if noise is not None:
-        found.rounded("floor.noise", floor["noise"], noise)
+        found.rounded("floor.noise", floor.get("noise"), noise)
     under = next((each for each in rows.values() if each.row["candidate"] == floor["candidate"]), None)
-    if under is not None and not _has(under.row, "instrument") and not under.surface.slack:
+    if under is not None and not under.surface.slack:
         compare_floor(floor, under.surface, under.residuals, data, found)
 
 

@@ -184,10 +184,21 @@ def drifted():
 
 def test_an_answer_beside_a_drifted_instrument_holds(drifted):
     found = verified(drifted)
-    assert not found.wrong and list(found.left) == ["lambertian+ward"]
+    assert not found.wrong and not found.left
     places = [each.place for each in found.derived]
     assert "ranking[0].rms_ln" in places and "ranking[1].behind_se" in places
     assert "ranking[0].flags.instrument.gains_rms" in places
+    without = next(row for row in drifted[1]["ranking"] if "instrument" not in {each["code"] for each in row["flags"]})
+    assert without["candidate"] == "lambertian+ward" and len(without["instrument"]["ln_gains"]) == 5
+
+
+def test_so_does_one_that_told_it_in_flags_alone(drifted):
+    """As answers did before rows had `instrument`; then a row whose misfit is a discrepancy is left out."""
+    document = deepcopy(drifted[1])
+    for row in document["ranking"]:
+        del row["instrument"]
+    found = verified((drifted[0], document))
+    assert not found.wrong and list(found.left) == ["lambertian+ward"]
 
 
 @pytest.mark.parametrize("number", ["zero_deg", "ln_gain_45", "gains_rms"])
@@ -195,7 +206,19 @@ def test_a_changed_digit_of_what_the_instrument_did_is_found(drifted, number):
     changed = deepcopy(drifted[1])
     flag = next(each for each in changed["ranking"][0]["flags"] if each["code"] == "instrument")
     flag["numbers"][number] = _one_digit_off(flag["numbers"][number])
-    assert any("ranking[0]" in each.place for each in verified((drifted[0], changed)).wrong)
+    assert f"ranking[0].flags.instrument.{number}" in {each.place for each in verified((drifted[0], changed)).wrong}
+
+
+@pytest.mark.parametrize("key", ["zero_deg", "ln_gains"])
+@pytest.mark.parametrize("row", [0, 2])
+def test_so_is_one_beside_each_row(drifted, key, row):
+    changed = deepcopy(drifted[1])
+    told = changed["ranking"][row]["instrument"]
+    if key == "ln_gains":
+        told[key][1] = _one_digit_off(told[key][1])
+    else:
+        told[key] = _one_digit_off(told[key])
+    assert any(each.place.startswith(f"ranking[{row}].") for each in verified((drifted[0], changed)).wrong)
 
 
 def test_every_angle_that_is_told_in_degrees_is_known():

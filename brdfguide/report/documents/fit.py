@@ -234,6 +234,7 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
         "parameters": _parameters(fit, shows, measurement),
         "typed": _typed(fit),
         "free_parameters": fit.free,
+        "instrument": _instrument(fit),
         "evaluations": fit.evaluations,
         "converged": fit.converged,
         "flags": [finding(each) for each in row.warnings],
@@ -241,6 +242,15 @@ def _row(row: Row, measurement: Measurement, timing: bool, shows: Mapping) -> di
     if timing:
         entry |= {"time_per_sample_ns": row.ns_per_sample, "fit_time_s": fit.seconds, "on_front": row.on_front}
     return entry
+
+
+def _instrument(fit: Fit) -> dict | None:
+    """What was fitted beside the model: errors are without it. The values were that much too bright, the true angle is
+    the reported one plus the zero."""
+    found = fit.instrument
+    if found is None:
+        return None
+    return {"zero_deg": found.zero_deg, "theta_i_deg": list(found.theta_i_deg), "ln_gains": list(found.ln_gains)}
 
 
 def _held_out_fits(row: Row, measurement: Measurement) -> list[dict] | None:
