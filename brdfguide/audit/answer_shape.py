@@ -14,6 +14,7 @@ class PrintedValue:
     fitted: bool = False
     derived: bool = False
     known_to: Number = None
+    above: Number = None
     in_place_of: str | None = None
 
 
@@ -204,6 +205,48 @@ class PrintedCard:
 
 
 @dataclass(frozen=True)
+class PrintedInterval:
+    """A number and both ends of 95 %."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class PrintedTable:
+    """What a program of optics wants of a law."""
+
+    numbers: dict[str, float]
+
+
+@dataclass(frozen=True)
+class PrintedBeside:
+    """A law of physics in the same ranking."""
+
+    law: str
+    rms_ln: float
+    sigma_um: Number = None
+
+
+@dataclass(frozen=True)
+class PrintedStrayLight:
+    """What a fit of polished optics says beyond its parameters."""
+
+    law: str
+    wavelength_nm: float
+    intervals_95: dict[str, PrintedInterval]
+    beta: tuple[float, float]
+    band_per_um: tuple[float, float]
+    sigma_um: float
+    phase: float
+    first_order_from_nm: float
+    highest_theta_i_deg: float
+    numbers: tuple[PrintedTable, ...]
+    beside: tuple[PrintedBeside, ...]
+
+
+@dataclass(frozen=True)
 class PrintedFit:
     """`fit --json`."""
 
@@ -216,5 +259,7 @@ class PrintedFit:
     seen_order: tuple[PrintedEntry, ...]
     seen_weights: str
     floor: PrintedFloor | None = None
+    stray_light: tuple[PrintedStrayLight, ...] = ()
+    warnings: tuple[PrintedFlag, ...] = ()
     off_plane: PrintedPrice | None = None
     numbers: tuple[PrintedCard, ...] | None = None

@@ -28,6 +28,7 @@ OFF_PLANE_DEG = 0.1
 AT_DEG, NARROWER, PER_HALF_WIDTH = 20.0, 3, mpf("1.55")  # where a lobe's width is looked at; α over it
 ALIKE, MOST_WEIGHT, LEAST_SCAN = 2, 10, 5  # of scans: how unlike they may be; times that one counts more; directions
 DIGITS = 4
+HALF = 0.0005 * (1 + 1e-6)  # of the last of three decimals
 CLOSE = 1e-6  # relative, of what doubles keep of the normal equations
 AS_GOOD = 1e-7
 LEAST_LEFT = mpf("1e-3")
@@ -44,11 +45,11 @@ class FloorOfChannel:
 
 
 def compare_floor(
-    floor: dict, surface: ExactSurface, residuals: list[list], data: Readings, found: Comparisons
+    answer: dict, surface: ExactSurface, residuals: list[list], data: Readings, found: Comparisons
 ) -> None:
     """The floor's numbers that follow from the data and from the row it is under; nothing out of the plane of
     incidence, of more than four channels, and of more directions than are looked at one by one."""
-    rows = [place for place, row in enumerate(data.told) if any(row)]
+    floor, rows = answer["floor"], [place for place, row in enumerate(data.told) if any(row)]
     if len(data.angles) > MOST_DIRECTIONS or len(data.wavelengths) > MOST_CHANNELS or not _in_plane(data):
         return
     counted = _counted(data, rows)
@@ -68,12 +69,21 @@ def compare_floor(
     rights["reducible"] = _removed(smooth, model)
     for name, right in rights.items():
         found.rounded(f"floor.{name}", floor.get(name), right, DIGITS, CLOSE)
+    _compare_warnings(answer.get("warnings", []), rights["reducible"], found)
     if floor.get("factored") is None:
         return
     by_form, steps = _removed(mpf(floor["factored"]), model), mpf(10) ** -DIGITS * 5
     allowed = float(2 * steps * (mpf(floor["factored"]) / model) ** 2 + steps)
     found.check("floor.by_form", floor.get("by_form"), by_form, 0.0, allowed)
     found.check("floor.beyond_form", floor.get("beyond_form"), max(rights["reducible"] - by_form, mpf(0)), 0.0, allowed)
+
+
+def _compare_warnings(warnings: list[dict], reducible, found: Comparisons) -> None:
+    """The share of the squared misfit that another law would remove, to three decimals in what the answer warns of."""
+    for place, each in enumerate(warnings):
+        told = (each.get("numbers") or {}).get("reducible")
+        if told is not None:
+            found.check(f"warnings[{place}].numbers.reducible", told, reducible, 0.0, HALF)
 
 
 def _removed(left, model):

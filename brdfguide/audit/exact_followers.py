@@ -15,7 +15,7 @@ from mpmath import exp, expm1, fsum, log, mp, mpf, radians, sqrt
 
 from .exact_errors import SMALLEST, Readings
 from .exact_surface import ExactReading, ExactSurface
-from .rederived import CLOSE, Comparisons
+from .rederived import CLOSE, EXACT, Comparisons
 
 ONE_PRICE = mpf("1.25")  # times, up to which errors are one
 PRICE_DIGITS = 3
@@ -23,6 +23,7 @@ WIDEST_DEG = 85.0  # R-max looks no farther
 STEPS = 170  # of its scan, from one side to the other
 COARSELY, BESIDE = 10, 3  # of these steps
 NEAR_DEG = 3.0  # the mirror direction was measured
+ROUGH = "rough-regime:"  # of a flag, before the parameter
 MOST_COMPARED, HIGHEST_DEG = 120, 88.0  # incidences that are looked at for growth
 MOST_HELD = 64  # incidences, beyond which none was held
 ALIKE = 1e-9  # deg
@@ -49,6 +50,22 @@ def copies(answer: dict, found: Comparisons) -> None:
         for key, value in (row.get("typed") or {}).items():
             if key in row["parameters"]:
                 found.copy(f"ranking[{place}].typed.{key}", value, row["parameters"][key]["value"])
+
+
+def regimes(row: dict, place: str, found: Comparisons) -> None:
+    """Where only sigma/tau is known: from which sigma on, and the tau that goes with it, once more."""
+    for flag in row["flags"]:
+        if not flag["code"].startswith(ROUGH):
+            continue
+        key = flag["code"].removeprefix(ROUGH)
+        term, told = key.removesuffix("sigma"), flag["numbers"]
+        sigma, tau, slope = (row["parameters"].get(term + name) for name in ("sigma", "tau", "slope"))
+        if sigma is None or tau is None or slope is None:
+            continue
+        found.check(f"{place}.flags.{flag['code']}.slope", told["slope"], slope["value"], EXACT)
+        found.check(f"{place}.parameters.{key}.above", sigma.get("above"), told["sigma_um_above"], EXACT)
+        right = mpf(told["sigma_um_above"]) / mpf(told["slope"])
+        found.check(f"{place}.parameters.{term}tau.above", tau.get("above"), right)
 
 
 def ranks(answer: dict, found: Comparisons) -> None:
@@ -97,7 +114,7 @@ def _many(value) -> list:
 
 
 def exact_growth(each: RowOfAnswer, data: Readings, found: Comparisons) -> None:
-    """R-mirror and R-max of model and data; nothing where the scans were not in the plane or not held."""
+    """R-mirror and R-max of model and data; nothing where the scans were not held."""
     told = each.row.get("growth")
     if told is None or told["r_max"] is None or len(told["theta_i_deg"]) != 2:
         return
@@ -107,7 +124,7 @@ def exact_growth(each: RowOfAnswer, data: Readings, found: Comparisons) -> None:
     low, high = (_scan(data, theta, channel) for theta in told["theta_i_deg"])
     if low is None or high is None:
         return
-    lows, highs = _mirrors(data, low, channel), _mirrors(data, high, channel)
+    lows, highs = _mirrors(data, low), _mirrors(data, high)
     right = max(data.exact[row][channel] for row in high) / max(data.exact[row][channel] for row in low)
     found.check(f"{place}.r_max_data", told["r_max_data"], right)
     if lows and highs:
@@ -153,22 +170,19 @@ def _off_plane(angles: tuple[float, float, float, float]) -> float:
 
 
 def _scan(data: Readings, theta: float, channel: int) -> list[int] | None:
-    """Rows of one held incidence with a value; None where there are none, or where they leave the plane."""
+    """Rows of one held incidence with a value, near the plane of incidence; None where there are none."""
     if len({round(each[0], 1) for each in data.angles}) > MOST_HELD:
         return None
     rows = [row for row, each in enumerate(data.angles) if abs(each[0] - theta) < HELD_TOGETHER]
-    turns = [(data.angles[row][3] - data.angles[row][1]) % 180 for row in rows]
-    if any(min(turn, 180 - turn) > ALIKE for turn in turns):
-        return None
-    rows = [row for row in rows if data.told[row][channel]]
+    rows = [row for row in rows if data.told[row][channel] and _off_plane(data.angles[row]) < NEAR_DEG]
     return rows or None
 
 
-def _mirrors(data: Readings, rows: list[int], channel: int) -> list[int]:
+def _mirrors(data: Readings, rows: list[int]) -> list[int]:
     """Rows nearest to the mirror direction, two where it lies between them; none where none is within 3 degrees."""
-    away = {row: abs(data.signed_theta_r[row] - data.angles[row][0]) for row in rows}
-    least = min(away.values())
-    return [row for row in rows if away[row] <= least + ALIKE] if least <= NEAR_DEG else []
+    away = {row: 2 - 2 * data.sights[row].pair.cos_m for row in rows if _near_mirror(data, row)}
+    least = min(away.values(), default=mpf(0))
+    return [row for row, each in away.items() if each <= least * (1 + ALIKE) + ALIKE**2]
 
 
 def _at_mirror(surface: ExactSurface, data: Readings, theta: float, rows: list[int], channel: int) -> list:

@@ -23,6 +23,7 @@ from .exact_held_out import compare_held_out
 from .exact_instrument import compare_instrument, undrifted
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
 from .exact_noise import compare_noise
+from .exact_stray_light import compare_stray_light
 from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
 from .rederived import Comparisons, Rederived
 
@@ -92,6 +93,7 @@ def verify(
             exact_followers.ranks(answer, found)
             exact_followers.copies(answer, found)
             exact_followers.programs(answer, found)
+            compare_stray_light(answer, found)
     used = sum(map(_parameters_of, answer["ranking"]))
     return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
 
@@ -100,13 +102,16 @@ def readings_of(measurement: Measurement, answer: dict, before: Measurement | No
     """A measurement as it was read for the fit, with what the answer says of its values; `before` anything was left out
     of it, where something was.
 
-    Raises InputError where the answer has other channels.
+    Raises InputError where the answer has other channels, or tells of other numbers of them.
     """
     geom, channels = measurement.geom, len(measurement.channels)
     if len(answer["data"]["channels"]) != channels:
         told = len(answer["data"]["channels"])
         found = f"{channels} channel{'s' * (channels != 1)}"
         raise InputError(f"{measurement.name}: found {found}; the answer has {told}: are they its data?")
+    for key, told in answer["noise"].items():
+        if isinstance(told, list) and len(told) != channels:
+            raise InputError(f"{measurement.name}: noise.{key}: found {len(told)} numbers; wanted {channels}")
     columns = (geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg)
     beyond = (_beyond(geom.theta_i_deg, geom.theta_i), _beyond(geom.theta_r_deg, geom.theta_r))
     wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
@@ -239,6 +244,7 @@ class _Row:
             )
             compare_stderrs(fitted_row, place, self.data, found)
         exact_followers.reflectance_errors(row, place, found)
+        exact_followers.regimes(row, place, found)
         exact_followers.exact_growth(self, self.data, found)
         compare_held_out(row, place, self.data, found)
         compare_instrument(row, place, found)
@@ -326,7 +332,7 @@ def _noise_and_floor(answer: dict, rows: dict[int, _Row], data: Readings, found:
         found.rounded("floor.noise", floor.get("noise"), noise)
     under = next((each for each in rows.values() if each.row["candidate"] == floor["candidate"]), None)
     if under is not None and not under.surface.slack:
-        compare_floor(floor, under.surface, under.residuals, data, found)
+        compare_floor(answer, under.surface, under.residuals, data, found)
 
 
 def _differences(rows: dict[int, _Row], complete: bool, found: Comparisons) -> None:

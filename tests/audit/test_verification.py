@@ -33,11 +33,12 @@ MODELS = ("lambertian+ggx", "lambertian+he-torrance", "lambertian+lafortune:2", 
 CODE = (
     *("textbook", "textbook_more", "textbook_grain", "exact_surface", "exact_errors", "exact_followers", "rederived"),
     *("exact_intervals", "exact_held_out", "exact_instrument", "verification", "answer_shape", "exact_floor"),
-    *("exact_noise", "exact_exchange", "exact_two_parts"),
+    *("exact_noise", "exact_exchange", "exact_two_parts", "exact_stray_light"),
 )
 SHARED = {
     *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".exact_held_out", ".rederived"),
     *(".exact_instrument", ".exact_noise", ".exact_exchange", ".exact_two_parts", ".exact_floor"),
+    ".exact_stray_light",
     *("..errors", "..records", "..data.measurement"),
 }
 

@@ -1,6 +1,7 @@
 """`verify`: the noise of single values and the floor under every law, derived again from the data alone."""
 
 import json
+import re
 from copy import deepcopy
 from dataclasses import replace
 
@@ -12,10 +13,18 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 from mpmath import mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_floor, exact_noise, exact_two_parts, verification
+from brdfguide.audit import (
+    exact_floor,
+    exact_followers,
+    exact_noise,
+    exact_stray_light,
+    exact_two_parts,
+    verification,
+)
 from brdfguide.audit.rederived import Comparisons
 from brdfguide.bases import smooth
 from brdfguide.data import examine, formats
+from brdfguide.data.formats.format import InputError
 from brdfguide.data.measurement import Measurement
 from brdfguide.data.noise_model import two_parts
 from brdfguide.face.functions import fit
@@ -24,9 +33,11 @@ from brdfguide.numerics import bsplines
 from brdfguide.physics.geometry import Geometry, rows
 
 from .. import synthetic
+from ..conftest import ROOT
 from ..data.test_noise_model import dim_run, on_a_floor
 from .test_verification import _one_digit_off
 
+STEP = re.compile(r"[.\[\]]+")
 SURFACE = {"albedo": 0.02, "ggx.alpha": 0.2, "ggx.n": 1.5}
 
 
@@ -275,3 +286,91 @@ def test_by_how_much_values_scatter_follows_from_residuals_where_none_can_be_com
     assert "noise_rms_ln" in {each.place for each in result.derived} and not result.wrong
     document["noise_rms_ln"] = _one_digit_off(document["noise_rms_ln"])
     assert [each.place for each in verified((found.measurement, document)).wrong] == ["noise_rms_ln"]
+
+
+# --- what else follows -------------------------------------------------------------------------------
+
+
+def test_growth_of_data_outside_the_plane_follows_from_their_scans_near_it():
+    measurement = hemisphere(4)
+    found = fit(measurement, ("lambertian+ggx",), timing=False, anyway=True)
+    answer = found.measurement, json.loads(json.dumps(found.document))
+    places = {each.place for each in verified(answer).derived}
+    assert not verified(answer).wrong
+    assert {f"ranking[0].growth.{name}" for name in ("theta_i_deg[1]", "r_max", "r_max_data")} <= places
+    changed = deepcopy(answer[1])
+    changed["ranking"][0]["growth"]["r_max"] = _one_digit_off(changed["ranking"][0]["growth"]["r_max"])
+    changed["ranking"][0]["growth"]["theta_i_deg"][0] += 1e-4
+    wrong = {each.place for each in verified((measurement, changed)).wrong}
+    assert {"ranking[0].growth.r_max", "ranking[0].growth.theta_i_deg[0]"} <= wrong
+
+
+@pytest.fixture(scope="module")
+def polished():
+    """A mirror and its waves, and the answer on it."""
+    data = examine.prepared(formats.read(ROOT / "examples" / "polished_mirror.csv"))
+    found = fit(data, ("abg", "lambertian+he-torrance", "lambertian+abc"), timing=False)
+    return found.measurement, json.loads(json.dumps(found.document))
+
+
+STRAY = (
+    *("phase", "first_order_from_nm", "band_per_um[1]", "highest_theta_i_deg", "beside[0].rms_ln"),
+    *("intervals_95.a.high", "intervals_95.b.low", "intervals_95.g.value", "numbers[0].numbers.A"),
+)
+
+
+@pytest.mark.parametrize("place", STRAY)
+def test_what_is_said_of_polished_optics_follows(polished, place):
+    found, document = Comparisons(), deepcopy(polished[1])
+    with workdps(verification.DIGITS):
+        exact_stray_light.compare_stray_light(document, found)
+    assert all(each.agrees for each in found.derived) and len(found.derived) >= 18
+    assert f"stray_light[0].{place}" in {each.place for each in found.derived}
+    steps = [int(each) if each.isdigit() else each for each in STEP.split(place.rstrip("]"))]
+    target, (*path, last) = document["stray_light"][0], steps
+    for step in path:
+        target = target[step]
+    target[last] = _one_digit_off(target[last])
+    changed = Comparisons()
+    with workdps(verification.DIGITS):
+        exact_stray_light.compare_stray_light(document, changed)
+    assert f"stray_light[0].{place}" in {each.place for each in changed.derived if not each.agrees}
+
+
+@pytest.mark.parametrize("name", ["sigma", "tau"])
+def test_from_which_height_on_only_a_slope_is_known_is_told_twice(polished, name):
+    document = deepcopy(polished[1])
+    row = next(place for place, each in enumerate(document["ranking"]) if "he-torrance" in each["candidate"])
+    told = document["ranking"][row]
+    assert any(each["code"] == "rough-regime:he-torrance.sigma" for each in told["flags"])
+    entry = told["parameters"][f"he-torrance.{name}"]
+    entry["above"] = _one_digit_off(entry["above"])
+    found = Comparisons()
+    exact_followers.regimes(told, f"ranking[{row}]", found)
+    wrong = [each.place for each in found.derived if not each.agrees]
+    assert len(found.derived) == 3 and wrong == [f"ranking[{row}].parameters.he-torrance.{name}.above"]
+
+
+def test_so_is_what_another_law_would_remove_where_the_answer_warns_of_it(described):
+    document = deepcopy(described[1])
+    told = round(document["floor"]["reducible"], 3)
+    for step, wrong in ((0.0, False), (0.001, True), (-0.001, True)):
+        document["warnings"] = [{"code": "at-the-floor", "numbers": {"reducible": told + step}}]
+        places = {each.place for each in verified((described[0], document)).wrong}
+        assert ("warnings[0].numbers.reducible" in places) == wrong
+
+
+def test_a_rank_is_that_of_the_errors(described):
+    document = deepcopy(described[1])
+    last = max(range(2), key=lambda place: document["ranking"][place]["rank"])
+    document["ranking"][last]["rank"] += 1
+    assert f"ranking[{last}].rank" in {each.place for each in verified((described[0], document)).wrong}
+
+
+def test_lists_of_another_length_than_the_channels_are_refused():
+    measurement = examine.prepared(scanned(3, channels=3))
+    for key in ("absolute_per_sr", "told_from_per_sr", "dark_level_per_sr", "dark_level_stderr_per_sr"):
+        answer = noise_block(measurement)
+        answer["noise"][key] = [0.0, 0.0]
+        with pytest.raises(InputError, match=f"noise.{key}: found 2 numbers; wanted 3"):
+            verification.readings_of(measurement, answer)
