@@ -142,7 +142,9 @@ PLAIN: dict[Any, tuple[Callable[[Any], bool], str]] = {
 def _is(kind: Any, value: Any) -> bool:
     if kind in PLAIN:
         return PLAIN[kind][0](value)
-    return isinstance(value, list) if get_origin(kind) is tuple else isinstance(value, dict)
+    if get_origin(kind) is tuple:
+        return isinstance(value, list) and (... in get_args(kind) or len(value) == len(get_args(kind)))
+    return isinstance(value, dict)
 
 
 def _wanted(kind: Any) -> str:
@@ -150,7 +152,9 @@ def _wanted(kind: Any) -> str:
         return " or ".join(map(_wanted, get_args(kind)))
     if kind in PLAIN:
         return PLAIN[kind][1]
-    return "a list" if get_origin(kind) is tuple else "an object"
+    if get_origin(kind) is tuple:
+        return "a list" if ... in get_args(kind) else f"a list of {len(get_args(kind))}"
+    return "an object"
 
 
 def _found(value: Any) -> str:

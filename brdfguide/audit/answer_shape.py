@@ -1,8 +1,15 @@
 """What an answer of `fit` must hold to be derived again."""
 
+from ..errors import InputError
 from ..records import dataclass
 
 Number = float | None
+OF_CHANNELS = ("absolute_per_sr", "dark_level_per_sr", "dark_level_stderr_per_sr", "told_from_per_sr")  # of `noise`
+OF_FLAGS = {  # whose numbers others follow from
+    "discrepancy": ("percent", "systematic_rms_ln", "correlation", "z", "chance"),
+    "instrument": ("gains_rms", "zero_deg"),
+    "rough-regime": ("sigma_um_above", "slope"),
+}
 
 
 @dataclass(frozen=True)
@@ -99,8 +106,8 @@ class PrintedData:
     missing: int
     channels: tuple[str, ...]
     wavelength_nm: tuple[float, ...]
-    theta_i_deg: tuple[float, ...]
-    theta_r_deg: tuple[float, ...]
+    theta_i_deg: tuple[float, float]
+    theta_r_deg: tuple[float, float]
     findings: tuple[PrintedFlag, ...]
     solid_angle_sr: Number = None
     read_with: dict[str, str | float | bool | tuple[str | float, ...]] | None = None
@@ -115,6 +122,8 @@ class PrintedNoise:
     dark_level_per_sr: tuple[float, ...] | None = None
     dark_level_stderr_per_sr: tuple[float, ...] | None = None
     told_from_per_sr: tuple[float, ...] | None = None
+    missed: Number = None
+    values_told: int | None = None
 
 
 @dataclass(frozen=True)
@@ -263,3 +272,24 @@ class PrintedFit:
     warnings: tuple[PrintedFlag, ...] = ()
     off_plane: PrintedPrice | None = None
     numbers: tuple[PrintedCard, ...] | None = None
+
+
+def refuse_gaps(answer: dict) -> None:
+    """What the shapes above leave open. Raises InputError where `noise` tells of other channels than the data, and for
+    a number that a flag of this code has and this one has not."""
+    channels = len(answer["data"]["channels"])
+    for key in OF_CHANNELS:
+        told = answer["noise"].get(key)
+        if told is not None and len(told) != channels:
+            raise InputError(f"the answer: noise.{key}: found {len(told)} numbers; wanted {channels}")
+    for place, row in enumerate(answer["ranking"]):
+        for rank, flag in enumerate(row["flags"]):
+            numbers, where = flag.get("numbers") or {}, f"ranking[{place}].flags[{rank}].numbers"
+            names = (*OF_FLAGS.get(flag["code"].partition(":")[0], ()), *(each for each in numbers if "gain" in each))
+            for each in names:
+                if numbers.get(each) is None:
+                    raise InputError(f"the answer: {where}: there is no '{each}'; wanted a number")
+    for rank, finding in enumerate(answer["data"]["findings"]):
+        if finding["code"] == "floor" and (finding.get("numbers") or {}).get("floor_per_sr") is None:
+            where = f"data.findings[{rank}].numbers"
+            raise InputError(f"the answer: {where}: there is no 'floor_per_sr'; wanted a number")

@@ -50,7 +50,12 @@ class ValuesAsRead:
 def compare_noise(answer: dict, data: Readings, found: Comparisons) -> bool:
     """The doubts of single values; False where they do not follow."""
     told = answer["noise"]
-    if "absolute_per_sr" not in told or len(data.angles) > MOST_DIRECTIONS or data.as_read is None or was_turned(data):
+    if (
+        not told.get("absolute_per_sr")
+        or len(data.angles) > MOST_DIRECTIONS
+        or data.as_read is None
+        or was_turned(data)
+    ):
         return False
     seen = _as_read(answer, data)
     departures = _departures(seen)

@@ -17,6 +17,7 @@ from ..data.measurement import Measurement
 from ..errors import InputError
 from ..records import dataclass
 from . import exact_errors, exact_followers
+from .answer_shape import refuse_gaps
 from .exact_errors import Readings, Ring
 from .exact_floor import compare_floor
 from .exact_held_out import compare_held_out
@@ -55,8 +56,10 @@ def verify(
     """Everything that follows from an answer's parameters and the data it was fitted to, in 30 digits.
 
     Takes  a document of `fit --json`; `only` the row of one model. The answer's own counts and ranges are compared with
-    the data first.    Gives  every comparison; nothing is raised for a number that is wrong.
+    the data first.    Gives  every comparison; nothing is raised for a number that is wrong.    Raises InputError where
+    numbers are lacking that others follow from.
     """
+    refuse_gaps(answer)
     found, left = Comparisons(), dict[str, str]()
     with workdps(DIGITS):
         _data_block(answer["data"], data, found)
@@ -102,16 +105,13 @@ def readings_of(measurement: Measurement, answer: dict, before: Measurement | No
     """A measurement as it was read for the fit, with what the answer says of its values; `before` anything was left out
     of it, where something was.
 
-    Raises InputError where the answer has other channels, or tells of other numbers of them.
+    Raises InputError where the answer has other channels.
     """
     geom, channels = measurement.geom, len(measurement.channels)
     if len(answer["data"]["channels"]) != channels:
         told = len(answer["data"]["channels"])
         found = f"{channels} channel{'s' * (channels != 1)}"
         raise InputError(f"{measurement.name}: found {found}; the answer has {told}: are they its data?")
-    for key, told in answer["noise"].items():
-        if isinstance(told, list) and len(told) != channels:
-            raise InputError(f"{measurement.name}: noise.{key}: found {len(told)} numbers; wanted {channels}")
     columns = (geom.theta_i_deg, geom.phi_i_deg, geom.theta_r_deg, geom.phi_i_deg + geom.phi_deg)
     beyond = (_beyond(geom.theta_i_deg, geom.theta_i), _beyond(geom.theta_r_deg, geom.theta_r))
     wavelengths = geom.wavelength.tolist() if hasattr(geom.wavelength, "tolist") else geom.wavelength
@@ -256,7 +256,7 @@ class _Row:
         """How neighbours err together, and what follows: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""
         compare_discrepancy(told, self.residuals, place, self.data, found)
         plain = exact_errors.exact_rms(self.residuals, [mpf(1)] * len(self.residuals))
-        part = plain * sqrt(mpf(told["correlation"]))
+        part = plain * sqrt(max(mpf(told["correlation"]), mpf(0)))
         found.check(f"{place}.systematic_rms_ln", told["systematic_rms_ln"], part)
         found.check(f"{place}.percent", told["percent"], 100 * expm1(min(part, mpf(300))))
         found.check(f"{place}.chance", told["chance"], erfc(mpf(told["z"]) / sqrt(2)) / 2, absolute=LEAST_CHANCE)

@@ -37,7 +37,7 @@ CODE = (
 )
 SHARED = {
     *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".exact_held_out", ".rederived"),
-    *(".exact_instrument", ".exact_noise", ".exact_exchange", ".exact_two_parts", ".exact_floor"),
+    *(".answer_shape", ".exact_instrument", ".exact_noise", ".exact_exchange", ".exact_two_parts", ".exact_floor"),
     ".exact_stray_light",
     *("..errors", "..records", "..data.measurement"),
 }

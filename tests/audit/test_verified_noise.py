@@ -21,6 +21,7 @@ from brdfguide.audit import (
     exact_two_parts,
     verification,
 )
+from brdfguide.audit.answer_shape import PrintedFit, refuse_gaps
 from brdfguide.audit.rederived import Comparisons
 from brdfguide.bases import smooth
 from brdfguide.data import examine, formats
@@ -31,6 +32,7 @@ from brdfguide.face.functions import fit
 from brdfguide.models.surface import Surface
 from brdfguide.numerics import bsplines
 from brdfguide.physics.geometry import Geometry, rows
+from brdfguide.typed_json import Schema, parsed
 
 from .. import synthetic
 from ..conftest import ROOT
@@ -46,6 +48,7 @@ def noise_block(measurement: Measurement) -> dict:
     noise = measurement.noise
     assert noise is not None
     return {
+        "ranking": [],
         "data": {
             "channels": list(measurement.channels),
             "findings": [{"code": each.code, "numbers": dict(each.numbers)} for each in measurement.findings],
@@ -373,4 +376,22 @@ def test_lists_of_another_length_than_the_channels_are_refused():
         answer = noise_block(measurement)
         answer["noise"][key] = [0.0, 0.0]
         with pytest.raises(InputError, match=f"noise.{key}: found 2 numbers; wanted 3"):
-            verification.readings_of(measurement, answer)
+            refuse_gaps(answer)
+
+
+@pytest.mark.parametrize("number", ["z", "chance", "correlation"])
+def test_a_flag_without_a_number_that_others_follow_from_is_refused(described, number):
+    document = deepcopy(described[1])
+    flag = next(each for row in document["ranking"] for each in row["flags"] if each["code"] == "discrepancy")
+    flag["numbers"][number] = None
+    with pytest.raises(InputError, match=f"there is no '{number}'; wanted a number"):
+        verified((described[0], document))
+
+
+def test_a_list_that_is_not_a_pair_is_refused(polished):
+    document = deepcopy(polished[1])
+    del document["stray_light"][0]["band_per_um"][1]
+    shape = Schema({document["schema"]: PrintedFit}, "the output of `brdfguide fit --json`")
+    with pytest.raises(InputError, match=r"band_per_um: found a list of 1; wanted a list of 2"):
+        parsed(json.dumps(document).encode(), shape, "fit.json")
+    assert parsed(json.dumps(polished[1]).encode(), shape, "fit.json").stray_light[0].law == "abg"
