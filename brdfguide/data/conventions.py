@@ -21,6 +21,7 @@ UNDONE = {
 }
 BELOW_NOISE = 10.0  # times the largest value: what lies so far below zero is no noise about it
 NO_BRDF = 1e20  # 1/sr; what files have in place of a value reaches from 1e20 to 1e37
+OBLIQUE_DEG, NO_LOBE_DEG = 25.0, 15.0  # from this incidence on, a peak so far before the mirror direction is no lobe
 STEEP_DEG = 8.0  # below this incidence the two sides are not told apart
 
 
@@ -182,6 +183,14 @@ def side_of(geom: Geometry, brdf) -> Side:
     if not np.any(both):
         if np.any(np.isfinite(ahead)):
             return Side("as_read", "only the mirror side was measured", True)
+        oblique = beyond[angles >= OBLIQUE_DEG]
+        if len(oblique) and np.median(oblique) < -NO_LOBE_DEG:
+            return Side(
+                "untold",
+                "only the other side was measured, that of the light, and nothing there is brightest where a mirror "
+                "would send it",
+                False,
+            )
         return Side(
             "turned",
             "only one side was measured, and it is brightest where a mirror would send the light",

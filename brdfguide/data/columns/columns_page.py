@@ -213,7 +213,8 @@ def _quantities() -> str:
         (f"`{name}`", quantity.meaning, _listed_phrases(quantity.phrases), _listed_phrases(quantity.spoken))
         for name, quantity in QUANTITIES.items()
     ]
-    vague = f"{_listed(VAGUE)} and `value` do not say what they hold: taken as the BRDF, and examined.\n"
+    vague = f"{_listed(VAGUE)} and `value` do not say what they hold: taken as the BRDF, and examined; `reflectance`\n"
+    vague += "in percent is a reflectance factor.\n"
     header = ("quantity", "values are", "in a name", "in a title or comment")
     return _table("Quantities", header, rows) + "\n" + vague
 

@@ -52,6 +52,9 @@ def understood(name: str, place: int = 0, colours: bool = True) -> Column:
     valued = any("value" in each for each in senses)
     if column.bare and words and not (valued or column.quantity or column.vague):
         return replace(column, why=f"'{words[0][:30]} {column.bare[:12]}' is not understood")  # the seventh data set
+    plain = not column.per_sr and not senses and "reflectance" in column.name.lower()
+    if column.vague and column.scale == "%" and plain:
+        return replace(column, role="value", vague=False, quantity="reflectance-factor")  # of a white standard
     if all(each & {"filler", "value"} for each in senses) and (named or valued or column.at is not None):
         return replace(column, role="value", vague=column.quantity is None and (column.vague or valued))
     if not named and (rule := _weak_rule(words, senses)):

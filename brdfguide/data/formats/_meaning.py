@@ -63,7 +63,9 @@ def measurement_of(
     if options.wavelength_nm is not None:
         result = result.noting(*overruled(prose.wavelength_in(table.comments), options.wavelength_nm))
     factor = prose.scale_in(table.comments)
-    if factor is None and all(not column.scale and column.factor == 1 for column in given.all("value")):
+    if factor in {column.factor for column in given.all("value")}:
+        factor = None  # the same unit, said twice
+    elif factor is None and all(not column.scale and column.factor == 1 for column in given.all("value")):
         factor = prose.unit_of_values_in(table.comments)
     if factor not in (None, 1.0) and options.scale is None:
         text = f"the comments state a scale of {factor:g}: values multiplied by it"

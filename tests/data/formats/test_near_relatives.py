@@ -217,6 +217,16 @@ def test_readings_of_one_laser_are_one_wavelength(tmp_path):
     agrees(found)
 
 
+def test_a_scan_of_the_side_of_the_light_alone_stays_there(tmp_path):
+    here = THETA_R < 0
+    found = read(tmp_path, "theta_i,theta_r,brdf\n" + lines(THETA_I[here], THETA_R[here], PLANE[here]))
+    np.testing.assert_allclose(found.brdf[:, 0], law(*(each[:, 0] for each in _angles(found.geom))), rtol=1e-5)
+    assert "only the other side was measured, that of the light" in str(found.findings)
+    lobe = THETA_R > 0
+    turned = read(tmp_path, "theta_i,theta_r,brdf\n" + lines(THETA_I[lobe], -THETA_R[lobe], PLANE[lobe]))
+    np.testing.assert_allclose(turned.brdf[:, 0], law(*(each[:, 0] for each in _angles(turned.geom))), rtol=1e-5)
+
+
 # --- what was done to the numbers -------------------------------------------------------------------------
 
 
@@ -249,7 +259,16 @@ def test_a_tangent_is_no_angle(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("head", "factor"), [("BRDF (1/msr)", 1e-3), ("BRDF [1000/sr]", 1e-3), ("BRF (1)", np.pi), ("BRDF [10/sr]", 0.1)]
+    ("head", "factor"),
+    [
+        ("reflectance (%)", 100 * np.pi),
+        ("Reflectance [percent]", 100 * np.pi),
+        ("intensity (%)", 100.0),
+        ("BRDF (1/msr)", 1e-3),
+        ("BRDF [1000/sr]", 1e-3),
+        ("BRF (1)", np.pi),
+        ("BRDF [10/sr]", 0.1),
+    ],
 )
 def test_units_of_values(tmp_path, head, factor):
     agrees(read(tmp_path, f"theta_i,theta_r,{head}\n" + lines(THETA_I, THETA_R, factor * PLANE)))
@@ -260,6 +279,7 @@ def test_units_of_values(tmp_path, head, factor):
     [
         ("# BRDF in 10^-3 sr^-1", "brdf", 1e3),
         ("# units: 1e-3/sr", "brdf", 1e3),
+        ("# scale: 0.001", "BRDF [1e-3/sr]", 1e3),
         ("# all values in percent", "BRF", 100 * np.pi),
         ("# all values in percent", "BRF [%]", 100 * np.pi),
         ("# detector aperture 1e-4 sr", "brdf", 1.0),
