@@ -6,47 +6,11 @@ from time import process_time
 import numpy as np
 import pytest
 
-from brdfguide import models
 from brdfguide.data import formats
 from brdfguide.data.columns import prose
 from brdfguide.errors import BrdfguideError, InputError
-from brdfguide.physics.geometry import Geometry, rows
 
-MODEL = models.get("lambertian+ggx")
-TRUTH = {"ggx.alpha": 0.3, "ggx.n": 1.5, "lambertian.albedo": 0.25}
-THETA_I, THETA_R = (each.ravel() for each in np.meshgrid([10.0, 30.0, 50.0], np.r_[-75.0:76.0:5.0], indexing="ij"))
-
-
-def law(theta_i, theta_r, phi) -> np.ndarray:
-    """BRDF [1/sr] of the surface, (rows,)."""
-    geom = rows(Geometry.from_degrees(theta_i, 0.0, theta_r, phi))
-    return np.broadcast_to(MODEL(geom, TRUTH), (len(geom), 1))[:, 0]
-
-
-PLANE = law(THETA_I, np.abs(THETA_R), np.where(THETA_R < 0, 0.0, 180.0))
-
-
-def lines(*columns, sep=",") -> str:
-    return "".join(sep.join(f"{cell:.9g}" for cell in row) + "\n" for row in zip(*columns, strict=True))
-
-
-def read(tmp_path, text: str, **options):
-    path = tmp_path / "table.csv"
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return formats.read(path, **options)
-
-
-def agrees(found, channel: int = 0, factor: float = 1.0) -> None:
-    """Every value is the law's for the directions that were read."""
-    shape = found.brdf[:, channel].shape
-    angles = [np.broadcast_to(each, (len(found.geom), 1))[:, 0] for each in _angles(found.geom)]
-    assert shape == THETA_I.shape
-    np.testing.assert_allclose(found.brdf[:, channel], factor * law(*angles), rtol=1e-5)
-
-
-def _angles(geom):
-    return geom.theta_i_deg, geom.theta_r_deg, geom.phi_deg
-
+from .plane_tables import PLANE, THETA_I, THETA_R, agrees, angles_of, law, lines, read
 
 # --- what stands in place of a wavelength -----------------------------------------------------------------
 
@@ -124,7 +88,7 @@ def test_lines_between_the_rows_say_the_azimuth_of_those_below(tmp_path):
     for phi in (0.0, 60.0, 120.0, 180.0):
         text += f"# azimuth: {phi:g} deg\ntheta_i,theta_r,brdf\n" + lines(*grid, law(*grid, np.full(6, phi)))
     found = read(tmp_path, text)
-    np.testing.assert_allclose(found.brdf, law(*(each[:, 0] for each in _angles(found.geom)))[:, None], rtol=1e-5)
+    np.testing.assert_allclose(found.brdf, law(*(each[:, 0] for each in angles_of(found.geom)))[:, None], rtol=1e-5)
     assert len(np.unique(np.round(np.abs(found.geom.phi_deg[found.geom.theta_r_deg > 1])))) == 4
 
 
@@ -220,11 +184,11 @@ def test_readings_of_one_laser_are_one_wavelength(tmp_path):
 def test_a_scan_of_the_side_of_the_light_alone_stays_there(tmp_path):
     here = THETA_R < 0
     found = read(tmp_path, "theta_i,theta_r,brdf\n" + lines(THETA_I[here], THETA_R[here], PLANE[here]))
-    np.testing.assert_allclose(found.brdf[:, 0], law(*(each[:, 0] for each in _angles(found.geom))), rtol=1e-5)
+    np.testing.assert_allclose(found.brdf[:, 0], law(*(each[:, 0] for each in angles_of(found.geom))), rtol=1e-5)
     assert "only the other side was measured, that of the light" in str(found.findings)
     lobe = THETA_R > 0
     turned = read(tmp_path, "theta_i,theta_r,brdf\n" + lines(THETA_I[lobe], -THETA_R[lobe], PLANE[lobe]))
-    np.testing.assert_allclose(turned.brdf[:, 0], law(*(each[:, 0] for each in _angles(turned.geom))), rtol=1e-5)
+    np.testing.assert_allclose(turned.brdf[:, 0], law(*(each[:, 0] for each in angles_of(turned.geom))), rtol=1e-5)
 
 
 # --- what was done to the numbers -------------------------------------------------------------------------
@@ -333,97 +297,3 @@ def test_marks_for_missing_cells(tmp_path, mark):
     text[5] = f"10,-50,{mark}"
     found = read(tmp_path, "theta_i,theta_r,brdf\n" + "\n".join(text))
     np.testing.assert_array_equal(np.flatnonzero(np.isnan(found.brdf[:, 0])), [5])
-
-
-# --- sheets of angles -------------------------------------------------------------------------------------
-
-SHEET = PLANE.reshape(3, -1)  # a row for each incidence
-
-
-@pytest.mark.parametrize(
-    "head", ["{:g}", "theta_r={:g}", "BRDF @ {:g} deg", "{:g}°", "BRDF({:g})", "BRDF theta_r = {:g} deg"]
-)
-def test_columns_for_reflected_angles_of_both_signs(tmp_path, head):
-    text = "theta_i," + ",".join(head.format(each) for each in THETA_R[: SHEET.shape[1]]) + "\n"
-    found = read(tmp_path, text + lines([10, 30, 50], *SHEET.T))
-    agrees(found)
-    assert found.geom.theta_r_deg.max() == 75
-
-
-@pytest.mark.parametrize("corner", ["theta_r\\theta_i", "theta_r / theta_i", "theta_r (deg) \\ theta_i (deg)"])
-def test_a_sheet_whose_corner_names_both_angles(tmp_path, corner):
-    agrees(read(tmp_path, f"{corner},10,30,50\n" + lines(THETA_R[: SHEET.shape[1]], *SHEET)))
-    text = corner.replace("_r", "_x").replace("_i", "_r").replace("_x", "_i")
-    text += "," + ",".join(f"{each:g}" for each in THETA_R[: SHEET.shape[1]]) + "\n"
-    agrees(read(tmp_path, text + lines([10, 30, 50], *SHEET.T)))
-
-
-def test_a_hyphen_that_may_be_a_minus_sign_is_asked_about(tmp_path):
-    text = "theta_i," + ",".join(f"theta_r {each:g}" for each in THETA_R[: SHEET.shape[1]]) + "\n"
-    with pytest.raises(InputError, match="the columns theta_r -75, .* a minus sign or a hyphen before the angle"):
-        read(tmp_path, text + lines([10, 30, 50], *SHEET.T))
-
-
-@pytest.mark.parametrize("head", ["|beta-beta0|", "|β−β₀|", "|beta_s - beta_i|"])
-def test_sizes_of_a_difference_have_no_side(tmp_path, head):
-    sizes = np.abs(np.sin(np.radians(THETA_R)) - np.sin(np.radians(THETA_I)))
-    with pytest.raises(
-        InputError, match=r"line 2: column .*: found 1\.1\d*, toward grazing beyond the horizon: on which"
-    ):
-        read(tmp_path, f"AOI,{head},BSDF\n" + lines(THETA_I, sizes, PLANE))
-    ahead = THETA_R > THETA_I
-    found = read(tmp_path, f"AOI,{head},BSDF\n" + lines(THETA_I[ahead], sizes[ahead], PLANE[ahead]))
-    np.testing.assert_allclose(found.geom.theta_r_deg[:, 0], THETA_R[ahead], atol=1e-5)
-
-
-def test_names_of_latex_and_german_azimuths(tmp_path):
-    table = lines(THETA_I, np.abs(THETA_R), np.where(THETA_R < 0, 0, 180), PLANE)
-    agrees(read(tmp_path, "$\\theta_i$,$\\theta_r$,$\\phi$,$f_r$\n" + table))
-    agrees(read(tmp_path, "Einfallswinkel,Reflexionswinkel,Azimutwinkel,BRDF\n" + table))
-
-
-# --- how numbers are written ------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("minus", ["\N{MINUS SIGN}", "\N{EN DASH}", "\N{FULLWIDTH HYPHEN-MINUS}"])
-def test_minus_signs_of_word_processors(tmp_path, minus):
-    agrees(read(tmp_path, "theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE).replace("-", minus)))
-
-
-def test_degree_signs_behind_the_numbers(tmp_path):
-    table = "".join(f"{a:g}°,{b:g} °,{c:.9g}\n" for a, b, c in zip(THETA_I, THETA_R, PLANE, strict=True))
-    agrees(read(tmp_path, "theta_i,theta_r,brdf\n" + table))
-
-
-def test_decimal_commas_in_quotes_between_commas(tmp_path):
-    cells = [[f'"{cell:.9g}"'.replace(".", ",") for cell in row] for row in zip(THETA_I, THETA_R, PLANE, strict=True)]
-    agrees(read(tmp_path, "theta_i,theta_r,brdf\n" + "".join(",".join(row) + "\n" for row in cells)))
-
-
-@pytest.mark.parametrize("sep", [";", "\t"])
-def test_a_comma_that_may_part_thousands_is_asked_about(tmp_path, sep):
-    table = sep.join(("theta_i", "theta_r", "BRDF (10^-5/sr)")) + "\n"
-    for row in zip(THETA_I, THETA_R, 1e5 * PLANE, strict=True):
-        table += sep.join((f"{row[0]:g}", f"{row[1]:g}", f"{row[2]:,.0f}")) + "\n"
-    with pytest.raises(InputError, match=r"line \d+: found '\d+,\d{3}': a decimal comma, or one that parts thousands"):
-        read(tmp_path, table)
-    plain = sep.join(("theta_i", "theta_r", "brdf")) + "\n" + lines(THETA_I, THETA_R, PLANE, sep=sep)
-    agrees(read(tmp_path, plain.replace(".", ",")))
-
-
-def test_two_units_in_a_name_are_named(tmp_path):
-    with pytest.raises(InputError, match=r"is it 'theta_i_deg \(rad\)' \(its name says two units, deg and rad\)\?"):
-        read(tmp_path, "theta_i_deg (rad),theta_r_deg (rad),brdf\n" + lines(THETA_I, THETA_R, PLANE))
-
-
-def test_a_description_is_no_data(tmp_path):
-    path = tmp_path / "mug.yaml"
-    path.write_text("name: mug\ncomposition: porcelain\n")
-    with pytest.raises(InputError, match="a description without measured values: `brdfguide recommend` takes it"):
-        formats.read(path)
-
-
-@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be", "utf-32", "utf-32-be"])
-def test_encodings_that_are_not_read_are_named(tmp_path, encoding):
-    with pytest.raises(InputError, match="text in UTF-32, or in UTF-16 without its mark, which is not read; save it"):
-        read(tmp_path, ("theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)).encode(encoding))
