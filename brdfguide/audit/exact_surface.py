@@ -24,6 +24,8 @@ KNOWN = {*textbook_more.LAWS, *textbook_more.ROUGHER} - {"cylinders"}  # which t
 # laws of which the program keeps a series: how far from ours ln f may be, and from which alpha on; with narrower ones
 # too few digits of what several facets send are told beside the lobe
 SERIES = {"ggx-ms": (1e-4, 0.12)}
+WAVES = {"he-torrance", "he-torrance-aniso", "stam"}  # sums of a hundred terms and more
+IN_DOUBLES = 1e-11  # of ln f, what the program loses of these; 3e-12 is the most that was found (ours)
 COAT = ("coat.n", "coat.depth")
 STEP = mpf("1e-15")  # relative, for differences: of 30 digits fifteen are left
 ENDING = {"phong", "phong-lewis"}  # lobes that end at right angles to the mirror direction
@@ -66,6 +68,11 @@ class ExactSurface:
     def slack(self) -> float:
         """How far from ours ln f may be in the program, by what it says of its series."""
         return max((SERIES[each.law][0] for each in self.parts if each.law in SERIES), default=0.0)
+
+    @cached_property
+    def lost(self) -> float:
+        """What doubles may lose of an error of it, beside what any sum loses."""
+        return IN_DOUBLES if any(each.law in WAVES for each in self.parts) else 1e-15
 
     @cached_property
     def _told(self) -> dict:

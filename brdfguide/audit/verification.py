@@ -227,10 +227,10 @@ class _Row:
         by_theta = exact_errors.by_incidence(self.residuals, self.data)
         for angle, told in row["rms_ln_by_theta_i"].items():
             right = by_theta.get(float(angle), mpf("nan"))
-            found.check(f"{place}.rms_ln_by_theta_i.{angle}", told, right)
+            found.check(f"{place}.rms_ln_by_theta_i.{angle}", told, right, absolute=self.surface.lost)
         scales = {"ln": self.rms, **exact_errors.on_scales(self.residuals, self.data)}
         for name, right in scales.items():
-            found.check(f"{place}.errors.{name}", row["errors"][name], right)
+            found.check(f"{place}.errors.{name}", row["errors"][name], right, absolute=self.surface.lost)
         if self.grey and self.lightness:
             right = self.grey[0].apart(self.lightness, self.grey[1])
             for key, told in (("seen", row["seen"]), ("errors.seen", row["errors"]["seen"])):
@@ -346,7 +346,8 @@ def _differences(rows: dict[int, _Row], complete: bool, found: Comparisons) -> N
         found = found.loosened(max(each.surface.slack, best.surface.slack))
         right, error = exact_errors.exact_behind(each.residuals, best.residuals, each.data)
         found.check(f"{each.place}.behind", each.row["behind"], right, absolute=1e-12)
-        found.check(f"{each.place}.behind_se", each.row["behind_se"], error, 1e-8)
+        lost = max(0.1 * max(each.surface.lost, best.surface.lost), 1e-15)
+        found.check(f"{each.place}.behind_se", each.row["behind_se"], error, 1e-8, lost)
         if each.grey and each.lightness and best.lightness:
             apart = each.grey[0].apart(each.lightness, best.lightness)
             allowed = 1e-11 + 2 * WHITE * found.slack

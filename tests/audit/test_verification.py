@@ -375,3 +375,18 @@ def test_the_command_ends_with_1_where_a_digit_was_changed_and_2_for_no_answer(t
     assert wrong.returncode == 2 and "'behind_se' stands there twice" in wrong.stderr
     wrong = run("verify", str(tmp_path / "fit.json"), "--model", "wrad")
     assert wrong.returncode == 2 and "no fitted model called 'wrad'" in wrong.stderr
+
+
+def test_of_sums_of_a_hundred_terms_fewer_digits_are_compared():
+    """In doubles 3e-12 of ln f is lost: of answers 44, 57 and 77 of benchmarks/changed_digits.py."""
+    found = {
+        law: exact_surface.surface_of(law, {f"{law}.{key}": {"value": 0.3} for key in models.term(law).defaults()}).lost
+        for law in ("he-torrance", "stam", "ggx", "ward")
+    }
+    assert found == {"he-torrance": 1e-11, "stam": 1e-11, "ggx": 1e-15, "ward": 1e-15}
+    surface = exact_surface.surface_of(
+        "lambertian+he-torrance",
+        {"lambertian.albedo": {"value": [0.2]}}
+        | {f"he-torrance.{key}": {"value": 0.3} for key in models.term("he-torrance").defaults()},
+    )
+    assert surface.lost == 1e-11

@@ -39,7 +39,7 @@ def _left(result: dict) -> str:
     lines = [f"not derived: {each['candidate']}: {each['why']}" for each in result["rows_left_out"]]
     if result["not_derived"]:
         lines.append(
-            f"{result['not_derived']} other numbers do not follow from the answer (noise, floor, how probable laws "
-            f"are, what it took to find them): only the digest holds them"
+            f"{result['not_derived']} other numbers do not follow from the answer (how probable laws are, free factors "
+            f"beside them, metal or not, what it took to find them): only the digest holds them"
         )
     return "\n".join(lines)
