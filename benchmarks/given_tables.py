@@ -42,11 +42,12 @@ def tables():
         count = len(whole.channels)
         if count > CHANNELS:
             whole = whole.of_channels(np.array([count // 6, count // 2, 5 * count // 6]))
-        whole = _some(whole[whole.has_value], MOST)
-        yield name, whole, _some(whole, JUDGED)
+        whole = at_most(whole[whole.has_value], MOST)
+        yield name, whole, at_most(whole, JUDGED)
 
 
-def _some(measurement: Measurement, most: int) -> Measurement:
+def at_most(measurement: Measurement, most: int) -> Measurement:
+    """Rows that stand for all of a table, where it has more."""
     if len(measurement.brdf) <= most:
         return measurement
     return measurement[subsample.representative_rows(measurement, most)]
@@ -57,9 +58,14 @@ def nearest(table: Measurement, geom, either_way: bool = False) -> np.ndarray:
 
     Either way they may be exchanged where that is nearer: it is the same reflectance.
     """
-    ways = [_vectors(table.geom), *([_vectors(table.geom.swapped())] if either_way else [])]
-    apart = (np.min([np.sum((way - each) ** 2, axis=1) for way in ways], axis=0) for each in _vectors(geom))
-    return np.unique([int(np.argmin(each)) for each in apart])
+    return np.unique(nearest_rows(table.geom, geom, either_way))
+
+
+def nearest_rows(offered: Geometry, geom: Geometry, either_way: bool = False) -> list[int]:
+    """For each direction the number of the nearest of those that are offered."""
+    ways = [vectors(offered), *([vectors(offered.swapped())] if either_way else [])]
+    apart = (np.min([np.sum((way - each) ** 2, axis=1) for way in ways], axis=0) for each in vectors(geom))
+    return [int(np.argmin(each)) for each in apart]
 
 
 def moved(geom: Geometry, random: np.random.Generator) -> Geometry:
@@ -72,7 +78,8 @@ def moved(geom: Geometry, random: np.random.Generator) -> Geometry:
     return Geometry.from_degrees(theta_i, 0.0, theta_r, geom.phi_deg + off[2] / np.maximum(geom.sin_r, 0.2))
 
 
-def _vectors(geom) -> np.ndarray:
+def vectors(geom) -> np.ndarray:
+    """(directions, 5), whose distances are angles."""
     turn = np.radians(geom.phi_deg)
     parts = (geom.sin_i, geom.cos_i, geom.sin_r * np.cos(turn), geom.sin_r * np.abs(np.sin(turn)), geom.cos_r)
     return np.concatenate(np.broadcast_arrays(*parts), axis=1)

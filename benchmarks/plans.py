@@ -24,7 +24,7 @@ import numpy as np
 from benchmarks.given_tables import moved, nearest, rms, tables
 from brdfguide import models
 from brdfguide.fitting import fit as fitting
-from brdfguide.fitting import hypotheses, planning, ranking
+from brdfguide.fitting import hypotheses, learnt_design, planning, ranking
 from brdfguide.fitting.fit import ln_residuals
 from brdfguide.fitting.goniometer import Goniometer, hemisphere
 
@@ -49,11 +49,10 @@ def main() -> None:
     parser.add_argument("--moved", type=int, default=5, help="times that a blind plan is moved by a few degrees")
     parser.add_argument("--only", default="", help="tables with this in their names")
     asked = parser.parse_args()
-    target, unknown = hemisphere(80.0), hypotheses.unknown()
     blind = {
-        "8": planning.plan_everywhere(target, Goniometer(), unknown, 8).geom,
-        "16": planning.plan_everywhere(target, Goniometer(), unknown, 16).geom,
-        "32 in plane": planning.plan_everywhere(target, Goniometer(in_plane=True), unknown, 32).geom,
+        "8": learnt_design.learnt_directions(8, in_plane=False),
+        "16": learnt_design.learnt_directions(16, in_plane=False),
+        "32 in plane": learnt_design.learnt_directions(32, in_plane=True),
     }
     print(f"| table | {' | '.join(BARS)} | 16 random (worst) |")
     print("|---" * (len(BARS) + 2) + "|")

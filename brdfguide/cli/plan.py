@@ -19,6 +19,7 @@ EXAMPLES = (
 )
 INSTRUMENT = "Instrument"
 MOST = 512
+THETA_MAX_DEG = 80.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -42,7 +43,7 @@ class PlanRequest:
     scene: SceneOption = None
     theta_max: Annotated[
         float, Option("--theta-max", help="Greatest angle of light and detector [deg].", rich_help_panel=INSTRUMENT)
-    ] = 80.0
+    ] = THETA_MAX_DEG
     in_plane: Annotated[
         bool, Option("--in-plane", help="It stays in the plane of incidence.", rich_help_panel=INSTRUMENT)
     ] = False
@@ -124,7 +125,7 @@ def _check(request: PlanRequest) -> None:
 
 def _planned(request: PlanRequest):
     """The plan. Raises InputError and NoAnswer as a fit of the data does."""
-    from ..fitting import goniometer, hypotheses, planning
+    from ..fitting import goniometer, hypotheses, learnt_design, planning
     from ..physics.aperture import solid_angle_of
 
     solid_angle = None if request.aperture_deg is None else solid_angle_of(request.aperture_deg)
@@ -143,6 +144,9 @@ def _planned(request: PlanRequest):
         known = hypotheses.unknown() if request.description is None else _described(request.description)
     among = None if request.among is None else _directions(request.among)
     target = _target(request.scene, request.theta_max, among)
+    learnt = learnt_design.learnt_directions(request.budget, request.in_plane) if _plain(request) else None
+    if learnt is not None:
+        return planning.plan_of(learnt, target, reach, known)
     return planning.plan_everywhere(
         target,
         reach,
@@ -152,6 +156,12 @@ def _planned(request: PlanRequest):
         among=among,
         measured=None if measured is None else planning.measured_part(measured),
     )
+
+
+def _plain(request: PlanRequest) -> bool:
+    """Whether nothing is known of the surface and nothing asked of the instrument but, maybe, its plane."""
+    known = request.description, request.after, request.scene, request.among, request.aperture_deg
+    return all(each is None for each in known) and not request.scans and request.theta_max == THETA_MAX_DEG
 
 
 def _ranked(file: Path):

@@ -13,7 +13,7 @@ kernel are ours. Where a file says how the directions lie, how quickly δ change
 plane of incidence the rest lies far off: there the kernel is the mean over lengths from half to twice these.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -190,6 +190,39 @@ def plan_everywhere(
 
     of_file = among is not None and not scans
     picked, beside = _with_lobe(everywhere.geom, numbers, allowed, budget, pick, of_file)
+    blocks = _planned_blocks(everywhere, reach, numbers, picked, there, beside=beside, scans=offered)
+    return MeasurementPlan("error", (), blocks, 0 if measured is None else len(measured))
+
+
+def plan_of(
+    geom: Geometry, target: tuple[Geometry, np.ndarray], reach: Goniometer, hypotheses: tuple[Hypothesis, ...]
+) -> MeasurementPlan:
+    """The plan that takes these directions in their order, and what is expected of them.
+
+    Raises InputError where the instrument does not reach one.
+    """
+    beyond = np.count_nonzero(~reach.reaches(geom))
+    if beyond:
+        raise InputError(f"{beyond} of the directions are beyond the instrument's reach; wanted none")
+    weights = np.r_[target[1], np.zeros(len(geom))]
+    lengths = LENGTHS if reach.in_plane else (1.0,)
+    everywhere = Everywhere(joined_rows([target[0], geom]), weights, hypotheses, reach.solid_angle, lengths)
+    numbers = [np.array([row]) for row in range(len(target[1]), len(weights))]
+    return MeasurementPlan("error", (), _planned_blocks(everywhere, reach, numbers, list(range(len(geom))), []), 0)
+
+
+def _planned_blocks(
+    everywhere: Everywhere,
+    reach: Goniometer,
+    numbers: list[np.ndarray],
+    picked: list[int],
+    there: list[int],
+    *,
+    beside: Collection[int] = (),
+    scans: Sequence = (),
+) -> tuple[PlannedBlock, ...]:
+    """What is picked, scan by scan or in blocks, with the error expected before and after each; those `beside` the mean
+    do not count in it."""
     told = everywhere.groups(numbers, squares=False)
 
     def expected(some: list[int]) -> float | None:
@@ -202,9 +235,9 @@ def plan_everywhere(
         geom = everywhere.geom[np.concatenate([numbers[each] for each in chosen])]
         geom = geom if scans else geom[in_order(geom)]
         before, now = expected([*there, *picked[:start]]), expected([*there, *picked[: start + len(chosen)]])
-        named = tuple(offered[each][:2] for each in chosen) if scans else ()
+        named = tuple(scans[each][:2] for each in chosen) if scans else ()
         blocks.append(PlannedBlock(geom, named, before, now or 1.0, reach.seconds(geom)))
-    return MeasurementPlan("error", (), tuple(blocks), 0 if measured is None else len(measured))
+    return tuple(blocks)
 
 
 def _choice(geom, reach: Goniometer, starts, scans: bool, among: bool, count: int) -> list[np.ndarray]:
