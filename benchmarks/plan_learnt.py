@@ -149,7 +149,8 @@ class Search:
                 loss = self.loss(other, least) if self.allowed(other) else np.inf
                 if loss < least:
                     angles, least = other, loss
-                    print(f"{max(ends - time.monotonic(), 0):5.0f} s left, loss {least:.3f}", file=sys.stderr, flush=True)
+                    left = max(ends - time.monotonic(), 0.0)
+                    print(f"{left:5.0f} s left, loss {least:.3f}", file=sys.stderr, flush=True)
         return angles
 
     def _ranked(self, angles: np.ndarray, place: int) -> np.ndarray:
