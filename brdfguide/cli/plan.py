@@ -131,7 +131,7 @@ def _planned(request: PlanRequest):
     solid_angle = None if request.aperture_deg is None else solid_angle_of(request.aperture_deg)
     times = request.value_s, request.move_s
     reach = goniometer.Goniometer(request.theta_max, request.in_plane, request.step_deg, solid_angle, *times)
-    measured = None
+    there = None
     if request.after is not None:
         measured, ranked = _ranked(request.after)
         reach = replace(reach, solid_angle=measured.solid_angle)
@@ -139,14 +139,16 @@ def _planned(request: PlanRequest):
             return planning.plan_to_tell(ranked, measured, reach, request.budget)
         if request.purpose == "pin":
             return planning.plan_to_pin(ranked, measured, reach, request.budget)
-        known = hypotheses.after(ranked)
+        known, there = hypotheses.after(ranked), planning.measured_part(measured)
     else:
         known = hypotheses.unknown() if request.description is None else _described(request.description)
     among = None if request.among is None else _directions(request.among)
     target = _target(request.scene, request.theta_max, among)
-    learnt = learnt_design.learnt_directions(request.budget, request.in_plane) if _plain(request) else None
+    learnt = None
+    if _plain(request):
+        learnt = learnt_design.learnt_directions(request.budget, request.in_plane, there)
     if learnt is not None:
-        return planning.plan_of(learnt, target, reach, known)
+        return planning.plan_of(learnt, target, reach, known, there)
     return planning.plan_everywhere(
         target,
         reach,
@@ -154,13 +156,13 @@ def _planned(request: PlanRequest):
         request.budget,
         scans=request.scans,
         among=among,
-        measured=None if measured is None else planning.measured_part(measured),
+        measured=there,
     )
 
 
 def _plain(request: PlanRequest) -> bool:
-    """Whether nothing is known of the surface and nothing asked of the instrument but, maybe, its plane."""
-    known = request.description, request.after, request.scene, request.among, request.aperture_deg
+    """Whether nothing is described of the surface and nothing asked of the instrument but, maybe, its plane."""
+    known = request.description, request.scene, request.among, request.aperture_deg
     return all(each is None for each in known) and not request.scans and request.theta_max == THETA_MAX_DEG
 
 

@@ -195,20 +195,29 @@ def plan_everywhere(
 
 
 def plan_of(
-    geom: Geometry, target: tuple[Geometry, np.ndarray], reach: Goniometer, hypotheses: tuple[Hypothesis, ...]
+    geom: Geometry,
+    target: tuple[Geometry, np.ndarray],
+    reach: Goniometer,
+    hypotheses: tuple[Hypothesis, ...],
+    measured: Geometry | None = None,
 ) -> MeasurementPlan:
-    """The plan that takes these directions in their order, and what is expected of them.
+    """The plan that takes these directions in their order, beside those that are there, and what is expected of them.
 
     Raises InputError where the instrument does not reach one.
     """
     beyond = np.count_nonzero(~reach.reaches(geom))
     if beyond:
         raise InputError(f"{beyond} of the directions are beyond the instrument's reach; wanted none")
-    weights = np.r_[target[1], np.zeros(len(geom))]
+    before = [] if measured is None else [measured]
+    every = joined_rows([target[0], geom, *before])
+    weights = np.r_[target[1], np.zeros(len(every) - len(target[1]))]
     lengths = LENGTHS if reach.in_plane else (1.0,)
-    everywhere = Everywhere(joined_rows([target[0], geom]), weights, hypotheses, reach.solid_angle, lengths)
-    numbers = [np.array([row]) for row in range(len(target[1]), len(weights))]
-    return MeasurementPlan("error", (), _planned_blocks(everywhere, reach, numbers, list(range(len(geom))), []), 0)
+    everywhere = Everywhere(every, weights, hypotheses, reach.solid_angle, lengths)
+    ends = len(target[1]), len(target[1]) + len(geom)
+    numbers = [np.array([row]) for row in range(*ends)] + [np.arange(ends[1], len(every)) for _ in before]
+    there = [len(geom)] if before else []
+    blocks = _planned_blocks(everywhere, reach, numbers, list(range(len(geom))), there)
+    return MeasurementPlan("error", (), blocks, 0 if measured is None else len(measured))
 
 
 def _planned_blocks(

@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 
+from brdfguide import models
 from brdfguide.errors import InputError
 from brdfguide.fitting import goniometer, hypotheses, learnt_design, lobe_bands, planning
 from brdfguide.physics.geometry import Geometry
@@ -77,3 +78,20 @@ def test_it_is_taken_where_nothing_is_known_and_nowhere_else():
         other = planned(*words)
         assert other.shape == ours.shape and not np.allclose(other, ours, atol=1e-3)
     assert len(planned("--budget", "12")) == 12
+
+
+def test_after_the_first_eight_the_learnt_eight_follow(tmp_path):
+    eight, sixteen = (learnt_design.learnt_directions(count, False) for count in (8, 16))
+    more = degrees(sixteen)[8:]
+    np.testing.assert_allclose(degrees(learnt_design.learnt_directions(8, False, eight)), more)
+    np.testing.assert_allclose(degrees(learnt_design.learnt_directions(8, False, eight[::-1].swapped())), more)
+    off = Geometry.from_degrees(eight.theta_i_deg + 2.5, 0.0, eight.theta_r_deg, eight.phi_deg)
+    for measured, budget, in_plane in ((off, 8, False), (eight[:7], 8, False), (eight, 16, False), (eight, 8, True)):
+        assert learnt_design.learnt_directions(budget, in_plane, measured) is None
+    values = models.get("lambertian+ggx")(eight, {"lambertian.albedo": 0.3, "ggx.alpha": 0.2, "ggx.n": 1.5})
+    lines = [",".join(map(str, [*row, f])) for row, f in zip(degrees(eight), values[:, 0], strict=True)]
+    file = tmp_path / "eight.csv"
+    file.write_text("theta_i,theta_r,phi,brdf\n" + "\n".join(lines) + "\n")
+    np.testing.assert_allclose(
+        planned("--after", str(file), "--budget", "8"), np.array(sorted(more.tolist())), atol=1e-3
+    )
