@@ -275,7 +275,7 @@ def _scans(geom: Directions) -> list[tuple[np.ndarray, np.ndarray]]:
     plane = np.round(np.where(geom.sin_i < 1e-6, 0.0, np.remainder(geom.phi_deg + 1e-6, 180.0)), 0)[:, 0] % 180
     sign = np.where(np.remainder(geom.phi_deg[:, 0] + 1e-6, 360.0) >= 179.5, 1.0, -1.0)
     turns = turn_of_each(geom)
-    turn = 0.0 if turns is None else 1e6 * turns
+    turn = 0.0 if turns is None else 1e7 * turns  # beyond what angles of either sign add
     theta_i, theta_r = geom.theta_i_deg[:, 0], geom.theta_r_deg[:, 0]
     for fixed, angle in ((theta_i, sign * theta_r), (sign * theta_r, theta_i)):
         keys = np.round(10 * fixed) * 1000 + plane + turn

@@ -9,7 +9,7 @@ from brdfguide.data.measurement import Measurement
 from brdfguide.data.noise_model import SIGMA_PER_MEDIAN, NoiseModel, two_parts
 from brdfguide.fitting.residuals import ln_residuals
 from brdfguide.models.surface import Surface
-from brdfguide.physics.geometry import in_plane, rows
+from brdfguide.physics.geometry import Geometry, in_plane, rows
 
 from .. import synthetic
 from ..conftest import ROOT
@@ -144,3 +144,13 @@ def test_a_doubt_that_is_next_to_nothing_is_none():
     brdf = clean.brdf.copy()
     brdf[:9] = -1e-308
     assert noise.estimated_noise(Measurement(clean.geom, brdf, clean.channels)).absolute == (0.0,)
+
+
+def test_scans_of_a_turned_sample_hold_one_turn_each():
+    theta_i, theta_r = (each.ravel() for each in np.meshgrid(np.arange(10.0, 75.0, 10.0), np.arange(-60.0, 61.0, 10.0)))
+    phi_r = np.where(theta_r < 0, 0.0, 180.0)
+    parts = [(theta_i, turn + 0 * theta_i, np.abs(theta_r), turn + phi_r) for turn in (0.0, 30.0, 90.0)]
+    geom = rows(Geometry.from_degrees(*np.concatenate(parts, axis=1)))
+    scans = noise._scans(geom)
+    assert len(scans) == 3 * (7 + 13)
+    assert all(len(np.unique(geom.phi_i_deg[found, 0])) == 1 for found, _ in scans)
