@@ -151,7 +151,7 @@ def test_two_surfaces_stand_side_by_side_with_their_difference(tmp_path):
 @pytest.mark.parametrize(
     "words, sentence",
     [
-        (("wrad",), "no model called 'wrad'"),
+        (("wrad",), "no model or material called 'wrad'; did you mean ward?"),
         (("ward ward.alhpa=1",), "no parameter of ward called 'ward.alhpa'"),
         (("ward", "--light", "below"), "no place for the light called 'below'"),
         (("ward", "--size", "9"), "--size 9: a picture has 64 to 2048 pixels"),
