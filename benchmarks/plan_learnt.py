@@ -10,8 +10,7 @@ the error of nine laws' fits to the nearest directions, over the whole table's, 
 parts of the bar, levelled off so that no one table decides, and whether it is beyond the bar; as the plan is, and with
 every angle moved by about two degrees. Out of the plane sixteen and the first eight of them are judged together. A
 table with the word of `--without` is left out and told at the end; made tables always are. What is shipped came from
-several such runs, the first of which looked for eight alone; a direction of sixteen and one in the plane were exchanged
-last, for the tables that lay just beyond their bars.
+several such runs, the first of which looked for eight alone, the last two from what was shipped before.
 """
 
 import argparse
