@@ -4,6 +4,7 @@ import struct
 import subprocess
 import sys
 import zlib
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -107,7 +108,8 @@ def test_hostile_pictures_are_refused_in_a_sentence(tmp_path):
     write_codes(whole, srgb(LIGHT))
     refused(file("cut.jpg", whole.read_bytes()[:900]), "cut off")
     refused(tmp_path / "nothing.png", "no such file")
-    refused(file("folder.dng", b"II*\0" + bytes(100)), "damaged")
+    raw = file("folder.dng", b"II*\0" + bytes(100))
+    refused(raw, "damaged" if find_spec("rawpy") else "needs the package rawpy, which is not installed")
 
 
 def test_an_exr_that_is_cut_off_or_holds_no_colours_is_refused(tmp_path):
