@@ -21,10 +21,7 @@ WAITED_S = 10.0  # for the scheduler
 WORKERLESS_S = 600.0  # for a worker, which may wait in a queue of its own
 LOOK_S = 5.0  # between two looks whether there is one
 POLL_S = 0.02
-UNDER_WAY = {
-    "pending",
-    "lost",
-}  # of what was done by a worker that ended before it told: the scheduler has it done again
+UNDER_WAY = {"pending", "lost"}  # its worker ended before it told: the scheduler has it done again
 PAUSES_S = (0.1, 0.5)  # between tries to connect where the library fails otherwise than for want of a scheduler
 AHEAD = 3  # parts handed out for each of the cluster's threads
 MOST = 4  # tasks of a part: to hand one over and back takes some 5 ms of processor time

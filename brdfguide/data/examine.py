@@ -310,8 +310,7 @@ def _gaps(m: Measurement):
             consequence="no model is tested there",
             numbers=(("directions", count), ("from_theta_deg", float(steepest.min()))),
         )
-    doubted = np.array(smoothness.estimated_noise(m).absolute) > 0
-    absent = ~(m.usable | (np.isfinite(m.readings) & doubted))[~missing]  # where zero is in doubt, none is absent
+    absent = ~m.usable_beside(smoothness.estimated_noise(m))[~missing]
     partly = int(np.count_nonzero(absent))
     if partly > 0.02 * m.brdf.size:
         worst = int(np.argmax(np.count_nonzero(absent, axis=0)))

@@ -14,7 +14,7 @@ from ..records import dataclass
 from .noise_model import NoiseModel
 from .otherwise import Otherwise
 
-SMALLEST = 1e-300  # 1/sr, of a law
+SMALLEST = 1e-300  # 1/sr; where a law underflows its logarithm is taken here: far off, but finite
 LARGEST = 1e100  # 1/sr, and its inverse the least: beyond is no measurement
 FEW = 10_000  # values, beyond which short numbers sort sooner
 MOST_HELD = 120  # distinct incidence angles; with more, none was held
@@ -89,8 +89,11 @@ class Measurement(KeepsFormed):
         """(samples, channels): what a fit looks at. Where the dark level is in doubt, values below zero as well."""
         if self.noise is None or not self.noise.matters:
             return self.usable
-        with np.errstate(invalid="ignore"):
-            return self.usable | ((self.noise.limit > 0) & np.isfinite(self.readings))
+        return self.usable_beside(self.noise)
+
+    def usable_beside(self, noise: NoiseModel) -> np.ndarray:
+        """(samples, channels): usable, or of either sign in a channel whose dark level is in doubt."""
+        return self.usable | ((noise.limit > 0) & np.isfinite(self.readings))
 
     @cached_property
     def clear(self) -> np.ndarray:

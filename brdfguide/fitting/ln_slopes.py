@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from ..data.measurement import SMALLEST
 from ..models.surface import Surface
 from ..physics.aperture import Instrument
 from .layout import Layout, to_coordinate
-from .objective import SMALLEST
 from .reading import with_slopes
 
 STEEPEST_LN = 50.0  # ∂ ln f/∂u beyond which a derivative counts no more

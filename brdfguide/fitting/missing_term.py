@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 
 from .. import models
-from ..data.measurement import LARGEST, Measurement
+from ..data.measurement import LARGEST, SMALLEST, Measurement
 from ..models.extensions import extensions
 from ..models.model import Composite
 from ..models.surface import Surface
@@ -27,7 +27,6 @@ from .cross_validation import thinned
 from .diagnostics import standard_errors
 from .fit import Fit
 from .layout import layout_of
-from .objective import SMALLEST
 from .reading import reading, with_slopes
 
 WIDTHS = (0.02, 0.04, 0.07, 0.12, 0.2, 0.33, 0.55)

@@ -7,14 +7,14 @@ import numpy as np
 
 from ..data.height_against_width import is_too_high
 from ..data.lobe_ellipse import two_azimuths
-from ..data.measurement import Measurement
+from ..data.measurement import SMALLEST, Measurement
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry, rows
 from ..records import dataclass
 from .cross_validation import thinned, thinned_surface
 from .fit import Fit
 from .layout import Layout
-from .objective import SMALLEST, Misfit, metric
+from .objective import Misfit, metric
 from .ranked import Ranking
 from .reading import reading
 

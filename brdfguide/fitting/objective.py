@@ -6,7 +6,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..data.measurement import Measurement
+from ..data.measurement import SMALLEST, Measurement
 from ..errors import choices
 from ..numerics import least_squares
 from ..numerics.least_squares import Minimum
@@ -15,7 +15,6 @@ from . import reading
 from .layout import Layout
 
 STEEPEST = 1e140  # d residual / d coordinate beyond which only its sign is kept
-SMALLEST = 1e-300  # where a law underflows its logarithm is taken here: far off, but finite
 
 
 @dataclass(frozen=True)

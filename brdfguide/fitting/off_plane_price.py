@@ -16,7 +16,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..data.measurement import Measurement
+from ..data.measurement import SMALLEST, Measurement
 from ..numerics.gaussian_process import Foretold, Places, Weighed, weighed
 from ..physics.aperture import Instrument
 from ..physics.directions import Directions
@@ -28,7 +28,6 @@ from .fit import Fit
 from .goniometer import hemisphere
 from .layout import layout_of
 from .ln_slopes import ln_with_slopes
-from .objective import SMALLEST
 from .prepared import few_channels
 from .ranked import Ranking, Row
 from .reading import reading

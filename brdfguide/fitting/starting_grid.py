@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from ..data.lobe_ellipse import lobe_ellipse
-from ..data.measurement import Measurement
+from ..data.measurement import SMALLEST, Measurement
 from ..data.turning import turn_of_each
 from ..formed import formed
 from ..models import Composite
@@ -17,7 +17,6 @@ from ..numerics.nonnegative import non_negative
 from ..physics.geometry import Geometry
 from ..records import dataclass
 from .layout import Layout
-from .objective import SMALLEST
 
 GRID_SAMPLES = 160  # directions on which the grid is judged
 MOST_SHAPES = 20_000  # of a sum; beyond, the finer axes are thinned

@@ -20,16 +20,16 @@ CLEAR = 6.0  # points about its own, where a leader is not looked at
 
 def plot_cost(lines: list[Line], width_mm=180, height_mm=72, time: str = TIME):
     """A figure of error against run time."""
-    if not any(line.ns for line in lines):
-        height_mm = rows_height_mm(lines, height_mm)
     with style.look():
-        fig = style.figure(width_mm, height_mm)
+        fig = style.figure(width_mm, cost_height_mm(lines, height_mm))
         draw_cost(fig, lines, time)
         return fig
 
 
-def rows_height_mm(lines: list[Line], usual_mm: float) -> float:
-    """Of the errors alone, one row per model: names must not touch, and few rows need less than what is usual."""
+def cost_height_mm(lines: list[Line], usual_mm: float) -> float:
+    """What is usual; of the errors alone, one row per model, more where names would touch, and less for few rows."""
+    if any(line.ns for line in lines):
+        return usual_mm
     return min(max(usual_mm, 18 + LEAST_ROW_MM * len(lines)), 18 + 5 * len(lines))
 
 

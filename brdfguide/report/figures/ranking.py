@@ -2,7 +2,7 @@
 
 from ...data.measurement import Measurement
 from . import spheres, style
-from .cost import draw_cost, plot_cost, rows_height_mm
+from .cost import cost_height_mm, draw_cost, plot_cost
 from .grain import HEIGHT_MM, draw_grain, grain_of, plot_grain
 from .lines import lines_of, shown_lines, title_of
 from .lobes import draw_lobes, plot_lobes
@@ -20,8 +20,7 @@ def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIG
     """Draw the ranking into `path`, a .png, .svg or .pdf file, light or dark."""
     with style.look():
         lines, grain = lines_of(ranking), grain_of(measurement)
-        errors_mm = COST_MM if any(line.ns for line in lines) else max(COST_MM, rows_height_mm(lines, COST_MM))
-        parts = [LOBES_MM, *([] if grain is None else [HEIGHT_MM]), errors_mm]
+        parts = [LOBES_MM, *([] if grain is None else [HEIGHT_MM]), max(COST_MM, cost_height_mm(lines, COST_MM))]
         fig = style.figure(180, sum(parts))
         above, *middle, below = fig.subfigures(len(parts), 1, squeeze=False, height_ratios=parts)[:, 0]
         if grain is not None:
