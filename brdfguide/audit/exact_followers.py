@@ -19,6 +19,7 @@ from .rederived import CLOSE, EXACT, Comparisons
 
 ONE_PRICE = mpf("1.25")  # times, up to which errors are one
 PRICE_DIGITS = 3
+NO_ERROR = 1e-5  # rms ln, below which none is printed
 WIDEST_DEG = 85.0  # R-max looks no farther
 STEPS = 170  # of its scan, from one side to the other
 COARSELY, BESIDE = 10, 3  # of these steps
@@ -69,8 +70,8 @@ def regimes(row: dict, place: str, found: Comparisons) -> None:
 
 
 def ranks(answer: dict, found: Comparisons) -> None:
-    """Rows by error on the answer's scale, to five digits, then by free numbers; those that tie are first together.
-    Rows that are alike in both may stand either way round."""
+    """Rows by error on the answer's scale, to five digits and from the least that is printed on, then by free numbers;
+    those that tie are first together. Rows that are alike in both may stand either way round."""
     rows, metric = answer["ranking"], answer["metric"]
     keys = [(_five(row["errors"].get(metric)), row["free_parameters"]) for row in rows]
     ties = sum(bool(row["tied"]) for row in rows)
@@ -81,7 +82,7 @@ def ranks(answer: dict, found: Comparisons) -> None:
 
 
 def _five(error: float | None) -> float:
-    return inf if error is None else float(f"{error:.5g}")
+    return inf if error is None else float(f"{max(error, NO_ERROR):.5g}")
 
 
 def reflectance_errors(row: dict, place: str, found: Comparisons) -> None:

@@ -21,6 +21,7 @@ LEAST_LN_COSINE_RATIO = 0.15  # least |ln (cos theta_r / cos theta_i)| that says
 MOST = 1200  # directions compared
 BLOCK = 64  # of them at once
 SEED = 0  # by which they are drawn
+NEARER = 0.5  # times what the exchange moves a direction, within which its partner must lie: else nothing is exchanged
 STEEP = 0.3  # change of ln f over the distance between exchanged directions beyond which they tell nothing
 STEADY = 3.0  # |ln ratio| beyond which a peak was met by its flank
 GRAIN = 0.1  # rms of ln over rotations beyond which the azimuth of the light counts in an exchange
@@ -100,9 +101,11 @@ def exchanged_rows(measurement: Measurement):
     here = rows if len(rows) <= MOST else rows[sorted(Random(SEED).sample(range(len(rows)), MOST))]
     turns = _turns(measurement)
     places = _places(geom[rows], turns)
-    there, apart = _nearest(_places(geom.swapped()[here], turns), places)
+    exchanged = _places(geom.swapped()[here], turns)
+    there, apart = _nearest(exchanged, places)
+    moved = np.sqrt(np.sum((exchanged - _places(geom[here], turns)) ** 2, axis=1))
     beside, distance = _nearest(places[there], places, there)
-    close = (apart < np.radians(NEAR_DEG)) & (rows[there] != here)
+    close = (apart < np.radians(NEAR_DEG)) & (rows[there] != here) & (apart < NEARER * moved)
     close &= (apart < np.radians(EXACT_DEG)) | (
         _change(measurement, rows[there], rows[beside]) * apart < STEEP * distance
     )

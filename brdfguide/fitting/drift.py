@@ -41,6 +41,8 @@ SURE = 4.0  # standard deviations of chi² by which the misfit must fall
 HOPELESS = 0.5  # of that fall, which the first step must promise (ours)
 CERTAINLY = 1.5  # times the score of a discrepancy, from which after the first step one stays (ours)
 MOST_CHANNELS = 31  # more make the joint problem dear
+LEAST = 2e-3  # rms of ln that it does to the values: less is no instrument's, but rounding or the law's own (ours)
+IN_COMMON = 3.0  # standard deviations of the mean of gains, beyond which it is a scale that the law lacks (ours)
 LIKELY = 4.0  # prior standard deviations; what is farther off is no drift
 WILD = 3.0  # robust standard deviations beyond which a residual is cut, lest a few hide that the others correlate
 
@@ -66,6 +68,7 @@ class Adjusted:
     penalised: float  # sum of squares, those of the priors included, in units of `variance`
     variance: float  # of one residual, as many times as channels say the same
     before: float  # sum of squares of the model alone
+    did: float  # rms of ln that the instrument does to the values
     at: tuple[np.ndarray, np.ndarray]  # coordinates
 
 
@@ -160,6 +163,7 @@ def adjusted(begun: Begun, data: Prepared) -> Adjusted:
         penalised=float(np.sum(left**2) / variance + np.sum((nuisance / priors) ** 2)),
         variance=variance,
         before=before / variance,
+        did=float(np.sqrt(np.mean((here.columns @ nuisance) ** 2))),
         at=(shared, per_channel),
     )
 
@@ -293,23 +297,32 @@ def _errors(layout: Layout, values: dict, variances, free) -> dict:
 
 def explains(found: Adjusted, data: Prepared, residuals: np.ndarray) -> bool:
     """Whether the instrument takes away what the model alone could not follow: chi² falls by far more than as many
-    numbers would by chance, no discrepancy is left, not even beside a few wild values, and nothing is larger than an
-    instrument drifts.
+    numbers would by chance, no discrepancy is left, not even beside a few wild values, and nothing is larger or smaller
+    than an instrument drifts, or the same in all scans.
 
     `residuals` ln(model/data) of the adjusted, where the best models settle.
     """
     drift = found.drift
     count = len(drift.ln_gains) + 1
     fallen = found.before - found.penalised
-    if fallen < _least_fall(count):
+    if fallen < _least_fall(count) or found.did < LEAST:
         return False
     if np.any(np.abs(drift.ln_gains) > LIKELY * GAIN) or abs(drift.zero_deg) > LIKELY * ZERO_DEG:
+        return False
+    if _is_scale(drift):
         return False
     widest = WILD * SIGMA_PER_MEDIAN * float(np.nanmedian(np.abs(residuals)))
     return all(
         standard_errors.discrepancy(each, *standard_errors.serial_correlation(each, data.orders)) is None
         for each in (residuals, np.clip(residuals, -widest, widest))
     )
+
+
+def _is_scale(drift: Drift) -> bool:
+    """Whether the gains are alike and far from none: no lamp drifts so, but a law has a wrong level."""
+    gains = drift.ln_gains
+    chance = np.hypot(np.std(gains) / np.sqrt(len(gains)), np.mean(drift.ln_gains_stderr))
+    return bool(abs(np.mean(gains)) > IN_COMMON * chance)
 
 
 def instrument_finding(drift: Drift) -> Finding:

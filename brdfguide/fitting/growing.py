@@ -19,7 +19,7 @@ from .diagnostics import standard_errors
 from .fit_options import FitOptions
 from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
-from .residuals import ln_residuals, rms
+from .residuals import NO_ERROR, ln_residuals, rms
 
 MOST_STEPS = 4
 ALIKE = 1.03  # times the least held-out error up to which the simpler step is taken
@@ -193,7 +193,7 @@ def _shown(search: Search, data: Prepared) -> str:
     surface, residuals = _residuals(search, data)
     few = _few(data)
     correlation, score = standard_errors.serial_correlation(residuals, standard_errors.orderings(few))
-    if not standard_errors.discrepancy(residuals, correlation, score):
+    if rms(residuals) < NO_ERROR or not standard_errors.discrepancy(residuals, correlation, score):
         return ""
     known = np.isfinite(residuals)
     mean = np.where(known, residuals, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)

@@ -10,6 +10,7 @@ import numpy as np
 from ..data import noise as smoothness
 from ..data.measurement import Measurement
 from ..finding import Finding
+from ..flags import Effect
 from ..formed import formed
 from ..models import cost
 from ..numerics import pareto
@@ -21,9 +22,9 @@ from .choosing import recommending
 from .diagnostics import standard_errors
 from .fit import Fit, FitOptions
 from .objective import METRICS, SEEN
-from .ranked import REAL, Ranking, Row
+from .ranked import BETTER, REAL, Ranking, Row
 from .reading import evaluate
-from .residuals import rms
+from .residuals import NO_ERROR, rms
 
 REPEATS = 7  # of a timing, the least of which counts
 TIMED_SAMPLES = 2048  # directions of a timing, repeated where there are fewer: a long batch that fits the cache
@@ -46,10 +47,10 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
         {**all_errors(each, compared, sample_weights), "ln": fit.rms_ln, SEEN: look.seen(place)}
         for place, (each, fit) in enumerate(zip(residuals, fits, strict=True))
     ]
-    # errors alike to five digits are alike, and the simpler comes first
+    # errors alike to five digits are alike, as are those that are none, and the simpler comes first
     order = sorted(
         range(len(fits)),
-        key=lambda i: (not np.isfinite(errors[i][metric]), float(f"{errors[i][metric]:.5g}"), fits[i].free),
+        key=lambda i: (not np.isfinite(errors[i][metric]), _digits(errors[i][metric]), fits[i].free),
     )
     best = residuals[order[0]]
     along = standard_errors.along_scans(compared)
@@ -67,7 +68,8 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
         fit = fits[index]
         behind, error = rms_difference(residuals[index], best, blocks, sample_weights)
         apart = rms(residuals[index] - best, sample_weights)
-        alike = index == order[0] or apart < common or behind <= max(REAL * error, SAME * errors[order[0]]["ln"])
+        chance = max(REAL * error, SAME * errors[order[0]]["ln"], NO_ERROR)
+        alike = index == order[0] or apart < common or behind <= chance
         tied = tied and alike
         rows.append(Row(
             fit, place + 1, tied, fit.rms_ln, by_theta_i(fit.residuals, *bins), errors[index],
@@ -83,12 +85,17 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
         metric=metric,
         noise=noise,
         winners=winners,
-        warnings=_overall(rows, winners, noise),
+        warnings=_overall(rows, winners, metric, noise),
         weighing=weights.weighing(measurement, options.weights, options.robust),
         seen_weights=look.kind,
         close=options.close,
     )
     return recommending(ranked, measurement)
+
+
+def _digits(error: float) -> float:
+    """The digits of an error that order two."""
+    return float(f"{max(error, NO_ERROR):.5g}")
 
 
 def all_errors(residuals, measurement: Measurement, sample_weights=None) -> dict[str, float]:
@@ -241,13 +248,13 @@ class _CountedOne:
 
 
 def _winner(metric: str, fits, errors) -> int:
-    """The least error on a scale; the simplest of those that come within a thousandth of it. To the eye those within a
-    quarter are alike, and the one with the least error in ln stands for them."""
+    """The least error on a scale; the simplest of those that come within a thousandth of it or have none. To the eye
+    those within a quarter are alike, and the one with the least error in ln stands for them."""
     known = [place for place in range(len(fits)) if np.isfinite(errors[place][metric])] or list(range(len(fits)))
     least = min(errors[place][metric] for place in known)
     within = seen.TIE if metric == SEEN else 1.001
-    alike = [place for place in known if not errors[place][metric] > within * least]
-    return min(alike, key=lambda place: (metric == SEEN and float(f"{errors[place]['ln']:.5g}"), fits[place].free))
+    alike = [place for place in known if not errors[place][metric] > within * max(least, NO_ERROR)]
+    return min(alike, key=lambda place: (metric == SEEN and _digits(errors[place]["ln"]), fits[place].free))
 
 
 def _with_ranks(rows: list[Row]) -> list[Row]:
@@ -256,24 +263,37 @@ def _with_ranks(rows: list[Row]) -> list[Row]:
     return [replace(row, rank=1 if row.tied and ties > 1 else place) for place, row in enumerate(rows, start=1)]
 
 
-def _overall(rows: list[Row], winners: dict[str, str], noise: float) -> tuple[Finding, ...]:
-    found = []
-    if len(set(winners.values())) > 1:
-        scales = {model: [name for name, other in winners.items() if other == model] for model in winners.values()}
-        by_winner = "; ".join(f"{', '.join(names)}: {model}" for model, names in scales.items())
-        found.append(
-            Finding(
-                "metric-decides",
-                f"the winner depends on the scale: {by_winner}",
-                "warning",
-                "choose the scale that matters to you",
-                "--metric",
-            )
-        )
-    if rows and noise > 0 and rows[0].rms_ln > 2 * noise:
+def _overall(rows: list[Row], winners: dict[str, str], metric: str, noise: float) -> tuple[Finding, ...]:
+    """Doubts about all rows. Where the first leaves noise alone, it is chance that orders what it leaves alike."""
+    if not rows:
+        return ()
+    above = noise > 0 and rows[0].rms_ln > max(2 * noise, NO_ERROR)
+    off = above or any(each.effect is Effect.OF_MISFIT for each in rows[0].warnings)
+    found = [_by_scale(rows, winners, metric)] if off else []
+    if above:
         text = (
             f"even the best error, {rows[0].rms_ln:.2g}, is {rows[0].rms_ln / noise:.0f} times the noise of a single "
             f"value, {noise:.2g}"
         )
         found.append(Finding("above-noise", text, "warning", "no candidate describes this surface fully"))
-    return tuple(found)
+    return tuple(each for each in found if each)
+
+
+def _by_scale(rows: list[Row], winners: dict[str, str], metric: str) -> Finding | None:
+    """Where on another scale another law errs less in earnest than the first, or is seen to be closer."""
+    first, least = rows[0], {row.fit.name: row for row in rows}
+
+    def stands(scale: str) -> bool:
+        error = least[winners[scale]].errors[scale]
+        if scale == SEEN:
+            return seen.close_enough(first.seen, error)
+        return not BETTER * first.errors[scale] > error
+
+    other = {scale: name for scale, name in winners.items() if scale != metric and not stands(scale)}
+    if not other:
+        return None
+    winner = {scale: other.get(scale, first.fit.name) for scale in winners}
+    scales = {model: [name for name, its in winner.items() if its == model] for model in winner.values()}
+    by_winner = "; ".join(f"{', '.join(names)}: {model}" for model, names in scales.items())
+    text = f"the winner depends on the scale: {by_winner}"
+    return Finding("metric-decides", text, "warning", "choose the scale that matters to you", "--metric")

@@ -10,6 +10,7 @@ from ..models.surface import Surface
 from .reading import THREADS, reading
 
 BLOCK = 16_384  # directions of which values, angles and logarithms fit the processor's cache together
+NO_ERROR = 1e-5  # rms ln that is printed as none: the rounding of exact values, and no misfit, however regular
 
 
 def ln_residuals(surface: Surface, measurement: Measurement) -> np.ndarray:

@@ -27,3 +27,14 @@ def test_a_brdf_times_a_cosine_still_is_seed_0():
     geom = rows(in_plane(theta_i, theta_r))
     found = examine.examine(Measurement(geom, values[:, None] * geom.cos_r, ("550 nm",)))
     assert "brdf-cos" in [each.undo for each in found]
+
+
+@pytest.mark.parametrize("half", [3.0, 5.0])
+def test_one_scan_about_the_mirror_direction_has_no_exchanged_values(half):
+    """Near grazing a partner a few degrees off, on the same scan, was taken for an exchange: its slope for a cosine."""
+    theta_r = np.arange(78.0 - half, 78.0 + half + 0.01, 0.25)
+    geom = rows(in_plane(np.full_like(theta_r, 78.0), theta_r))
+    metal = {"he-torrance.sigma": 0.2, "he-torrance.slope": 0.1, "he-torrance.n": 1.0, "he-torrance.k": 4.0}
+    brdf = Surface(models.get("he-torrance"), metal, ("550 nm",)).brdf(geom)
+    found = examine.examine(Measurement(geom, brdf, ("550 nm",)))
+    assert not any(each.undo or each.code in ("reciprocal", "not-reciprocal") for each in found)

@@ -184,6 +184,39 @@ def test_a_winner_that_depends_on_the_scale_is_said():
     assert "metric-decides" in [each.code for each in found.warnings]
 
 
+@pytest.mark.parametrize("seed", [0, 5])
+def test_no_scale_decides_between_laws_that_leave_noise_alone(seed):
+    """The truth and laws of which it is a case: which of them errs least on a scale is chance."""
+    data = plastic(noise=0.05, seed=seed)
+    others = map(models.get, ("oren-nayar+ggx", "lambertian+student-t"))
+    found = ranking.rank(fit.fit_all([*others, GGX], data), data)
+    assert len(set(found.winners.values())) > 1
+    assert "metric-decides" not in [each.code for each in found.warnings]
+
+
+def test_exact_values_have_the_simplest_law_that_gives_them_and_no_doubt():
+    """Rounding alone is left, of which the one law has less than the other, alike over neighbours as any law's is."""
+    for geom in (None, synthetic.hemisphere(400)):
+        data = plastic(geom)
+        found = ranking.rank(
+            fit.fit_all(map(models.get, ("lambertian+student-t", "oren-nayar+ggx", "lambertian+ggx")), data), data
+        )
+        assert found.recommended is found.rows[0] and found.recommended.fit.model == GGX
+        assert not found.warnings and not found.recommended.warnings
+        assert {row.tied for row in found.rows} == {True} and set(found.winners.values()) == {"lambertian+ggx"}
+
+
+def test_what_errs_hardly_more_on_another_scale_stands_on_it_too():
+    data = plastic()
+    flank, peak = np.zeros_like(data.brdf), np.zeros_like(data.brdf)
+    bright = data.brdf > np.quantile(data.brdf, 0.9)
+    flank[~bright], peak[bright] = 0.2, 0.2
+    other = np.where(bright, 0.98, 1.01) * (flank + peak)  # less at the peak by a fiftieth
+    found = ranking.rank([as_fit(flank + peak), as_fit(other, "phong")], data)
+    assert len(set(found.winners.values())) == 2
+    assert [each.code for each in found.warnings] == ["above-noise"]
+
+
 def test_a_model_that_did_not_converge_is_not_recommended():
     data = plastic(noise=0.02, seed=1)
     good = fit.fit(GGX, data)
