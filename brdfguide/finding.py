@@ -20,7 +20,7 @@ class Finding:
     subject: str = ""  # what it is about, such as the parameter "ggx.alpha"
     settles: tuple[str, ...] = ()  # questions about a file that it answers: "side", "rotation", "cosine", "scale"
     leaves_out: bool = False  # whether a fit does without the values that it speaks of
-    undo: str = ""  # what makes a BRDF of the values where that is certain: "turn", or their quantity
+    undo: str = ""  # what makes a BRDF of the values where that is certain: "turn", "copies", or their quantity
 
     def __post_init__(self):
         flags.require_listed(self.code, self.severity, self.option, self.subject)

@@ -32,7 +32,6 @@ class Effect(Enum):
     AT_BOUND = "the same, and the JSON says which end"
     BOUNDS = "its numbers bound the parameter, and stand beside the value"
     DENIES = "as a warning it ends `check` with status 1"
-    OF_COPIES = "no held-out error and no growth toward grazing is told"
     OF_MISFIT = "a misfit of the model, unless the instrument explains it"
     EXTRAPOLATED = "a fit leaves out what lies beyond 80 degrees, unless --theta-max says another angle"
     OF_REPEATS = (
@@ -190,7 +189,7 @@ EXAMINED = {
     ),
     "cosine-weighted": Flag("Values are BRDF times cos θr. Undone.", EITHER, "--quantity brdf"),
     "arm-zero": Flag("Every peak lies off by one angle: the detector's arm. Undone.", EITHER, "--anyway"),
-    "copied-scans": Flag("Scans repeat another digit for digit: one measurement.", WARNING, effect=Effect.OF_COPIES),
+    "copied-scans": Flag("Scans repeat another digit for digit: left out.", WARNING),
     "beyond-80-left-out": Flag("Directions that were extrapolated. Left out.", option="--theta-max 90"),
     "coverage": Flag("Which directions were measured."),
     "equal-directions-differ": Flag("Equal directions differ by far more than noise.", ("outside",), "--anyway"),

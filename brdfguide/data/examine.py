@@ -100,7 +100,7 @@ def as_corrected(block: Measurement, example: Measurement) -> Measurement:
     """
     block = grazing.as_measured(block)
     for finding in example.findings:
-        if finding.undo == "dark-level":
+        if finding.undo in ("dark-level", "copies"):
             raise InputError(
                 f"{example.name}: {finding.text}; of a table that is read block by block it cannot be taken off: "
                 f"--anyway leaves it"
@@ -164,6 +164,8 @@ def _undone(measurement: Measurement, finding: Finding) -> Measurement:
     if finding.undo == "arm-zero":
         note = replace(finding, text=f"{finding.text}: taken off", severity="note")
         return scans.without_zero(measurement, finding).noting(note)
+    if finding.undo == "copies":
+        return scans.without_copies(measurement).noting(replace(finding, text=f"{finding.text}: left out"))
     note = replace(finding, text=f"{finding.text}: {conventions.UNDONE[finding.undo]}", severity="note")
     if finding.undo == "dark-level":
         model = smoothness.estimated_noise(measurement)

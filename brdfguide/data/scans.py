@@ -1,4 +1,5 @@
-"""Whole scans that are not what they seem: an arm whose zero is off, and scans that repeat another digit for digit."""
+"""Whole scans that are not what they seem: an arm whose zero is off, and scans that repeat another digit for digit,
+noise and all. A law whose lobe keeps its shape about the mirror direction may repeat itself; noise does not."""
 
 from dataclasses import replace
 from itertools import combinations
@@ -6,10 +7,10 @@ from itertools import combinations
 import numpy as np
 
 from ..finding import Finding
-from ..flags import Effect
 from ..physics.geometry import Directions, Geometry, rows
 from .measurement import Measurement, row_median
-from .turning import turned_parts
+from .noise_model import SIGMA_PER_MEDIAN
+from .turning import turn_of_each, turned_parts
 
 LEAST_SCANS = 3  # that are exchanged for each other
 MOST_SCANS = 60
@@ -24,6 +25,12 @@ WIDEST_STEP_DEG = 8.0  # between readings that are interpolated
 LEAST_PEAK = 2.0  # times the scan's median
 LEAST_COMMON = 5  # directions that two scans share
 COPIED = 0.9  # of them that are equal
+LEAST_COPIED = 12  # values of a scan that show whether they are noisy
+LEAST_NOISE = 1e-3  # relative: no goniometer repeats so well, and a law that is tabulated does (ours)
+ROUNDED = 0.3  # standard deviation of rounding, in units of the last digit (of an even spread: 1/√12)
+ABOVE_ROUNDING = 3.0  # times that, which noise has to be
+FOURTH = np.sqrt(70.0)  # standard deviations of a value in a fourth difference of such values
+WILD = 3.0  # robust standard deviations to which these are cut, lest a lobe decide
 
 
 def arm_turned(geom: Geometry, zero_deg: float | np.ndarray) -> Geometry:
@@ -89,25 +96,61 @@ def without_zero(measurement: Measurement, finding: Finding) -> Measurement:
 
 def copied_finding(measurement: Measurement) -> Finding | None:
     """Scans at several incidences with the same values about the mirror direction, digit for digit."""
-    if not measurement.in_plane or not 2 <= len(measurement.theta_i_groups) <= 60:
+    copies = _copies(measurement)
+    if not copies:
         return None
-    scans = {theta: _about_mirror(measurement, theta, rows) for theta, rows in measurement.theta_i_groups.items()}
-    first: dict[float, list[float]] = {}
-    for one, other in combinations(sorted(scans), 2):
-        if other not in sum(first.values(), []) and _equal(scans[one], scans[other]):
-            first.setdefault(one, []).append(other)
-    if not first:
-        return None
-    said = "; ".join(f"at {_listed(others)} that at {one:g}" for one, others in first.items())
+    said = "; ".join(f"at {_listed(others)} that at {one:g}" for one, others in copies.items())
     text = f"scans repeat others digit for digit about the mirror direction: {said} degrees"
-    consequence = "they count as one measurement: no held-out error, and the growth toward grazing is untested"
-    count = sum(map(len, first.values()))
-    return Finding("copied-scans", text, "warning", consequence, numbers=(("scans", count),))
+    consequence = "nothing was measured there: fitted, they would deny that a surface changes toward grazing"
+    count = sum(map(len, copies.values()))
+    return Finding("copied-scans", text, "warning", consequence, numbers=(("scans", count),), undo="copies")
 
 
-def independent(measurement: Measurement) -> bool:
-    """Whether no scan was noted to repeat another."""
-    return not any(each.effect is Effect.OF_COPIES for each in measurement.findings)
+def without_copies(measurement: Measurement) -> Measurement:
+    """The same without the scans that repeat another."""
+    turns, kept = turn_of_each(measurement.geom), np.ones(len(measurement.geom), bool)
+    for each in [None] if turns is None else np.unique(turns):
+        rows = np.arange(len(kept)) if turns is None else np.flatnonzero(turns == each)
+        part = measurement[rows]
+        for theta in sum(_copies(part).values(), []):
+            kept[rows[part.theta_i_groups[theta]]] = False
+    return measurement[kept]
+
+
+def _copies(measurement: Measurement) -> dict[float, list[float]]:
+    """Incidence of a scan that was measured -> those of the scans that repeat it. Of several alike the longest was
+    measured, of which the others lack what would lie below the horizon; else that nearest the normal."""
+    if not measurement.in_plane or not 2 <= len(measurement.theta_i_groups) <= MOST_SCANS:
+        return {}
+    scans = {theta: _about_mirror(measurement, theta, rows) for theta, rows in measurement.theta_i_groups.items()}
+    alike: dict[float, list[float]] = {}
+    for one, other in combinations(sorted(scans), 2):
+        if other not in sum(alike.values(), []) and _equal(scans[one], scans[other]):
+            alike.setdefault(one, []).append(other)
+    found = {}
+    for one, others in alike.items():
+        group = [one, *others]
+        longest = max(group, key=lambda theta: (len(scans[theta]), -theta))
+        if _noisy(_scan(measurement, measurement.theta_i_groups[longest])[1]):
+            found[longest] = [theta for theta in group if theta != longest]
+    return found
+
+
+def _noisy(ln) -> bool:
+    """Whether successive values of a scan scatter: their fourth differences, from which a smooth curve is all but gone,
+    change sign from one to the next."""
+    if len(ln) < LEAST_COPIED:
+        return False
+    differences, digits = np.diff(ln, 4), max(map(_digits, np.exp(ln)))
+    scatter = SIGMA_PER_MEDIAN * float(np.median(np.abs(differences))) / FOURTH
+    cut = np.clip(differences, -WILD * FOURTH * scatter, WILD * FOURTH * scatter)
+    noise = scatter > max(LEAST_NOISE, ABOVE_ROUNDING * ROUNDED * 10.0 ** (1 - digits))
+    return noise and float(cut[1:] @ cut[:-1]) < 0
+
+
+def _digits(value: float) -> int:
+    """How many digits a value was told to, of at most twelve."""
+    return len(f"{value:.11e}".partition("e")[0].replace(".", "").rstrip("0"))
 
 
 def _listed(angles) -> str:

@@ -6,7 +6,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..data import scans
 from ..data.measurement import Measurement
 from ..data.turning import turn_of_each
 from ..finding import Finding
@@ -272,9 +271,9 @@ def validated(
     ranking: Ranking, measurement: Measurement, options: FitOptions = FitOptions(), progress=lambda name: None
 ) -> Ranking:
     """The same ranking with growth, held-out errors of what was refined, and a warning for models that imitate."""
-    few, alone, refined = thinned(measurement), not scans.independent(measurement), []
+    few, refined = thinned(measurement), []
     for row in ranking.rows:
-        if not (alone or any(warning.effect is Effect.UNREFINED for warning in row.fit.warnings)):
+        if not any(warning.effect is Effect.UNREFINED for warning in row.fit.warnings):
             progress(row.fit.name)
             refined.append(row.fit)
     found = dict(zip(map(id, refined), held_out(refined, few, options), strict=True))
@@ -287,7 +286,5 @@ def validated(
     for row, held in zip(ranking.rows, helds, strict=True):
         warning = imitation(row.fit, held, single)
         warnings = row.warnings + ((warning,) if warning else ())
-        rows.append(
-            replace(row, held_out=held, growth=None if alone else growth(row.fit, measurement), warnings=warnings)
-        )
+        rows.append(replace(row, held_out=held, growth=growth(row.fit, measurement), warnings=warnings))
     return recommending(replace(ranking, rows=tuple(rows)), measurement)
