@@ -22,6 +22,9 @@ UNDONE = {
 BELOW_NOISE = 10.0  # times the largest value: what lies so far below zero is no noise about it
 NO_BRDF = 1e20  # 1/sr; what files have in place of a value reaches from 1e20 to 1e37
 OBLIQUE_DEG, NO_LOBE_DEG = 25.0, 15.0  # from this incidence on, a peak so far before the mirror direction is no lobe
+LOW_DEG = 15.0, 35.0  # incidences at which a mirror lobe lies within a scan, and so
+ABOUT_DEG, BESIDE_DEG = 10.0, (20.0, 45.0)  # brighter about the mirror direction than as far beyond it
+LEAST_FALL = 0.03  # in ln from there to there: of a rough lobe over a bright body half as much again or more (ours)
 STEEP_DEG = 8.0  # below this incidence the two sides are not told apart
 
 
@@ -176,7 +179,7 @@ def side_of(geom: Geometry, brdf) -> Side:
     """Judges the mirror side from the values alone; `geom` holds the directions as the file is read by default."""
     if blocked := _blocked(geom, brdf):
         return blocked
-    ahead, behind, angles, beyond = _peaks(geom, brdf)
+    ahead, behind, angles, beyond, falls = _peaks(geom, brdf)
     if not len(angles):
         return Side("untold", "no incidence is far enough from the normal to tell the mirror side", False)
     both = np.isfinite(ahead) & np.isfinite(behind)
@@ -214,6 +217,14 @@ def side_of(geom: Geometry, brdf) -> Side:
             "untold", "both sides are equally bright: the mirror side cannot be told from the values", False, **numbers
         )
     times = _times(-largest)
+    if (low := falls[both & np.isfinite(falls)]).size and np.mean(low) < LEAST_FALL:
+        return Side(
+            "untold",
+            f"the other side is {times} times brighter, but not about the mirror direction: matt facets that shade "
+            f"each other send light back so",
+            False,
+            **numbers,
+        )
     if growth > 0.1 or len(order) == 1:
         certain = largest < -np.log(4) and len(order) > 1
         return Side(
@@ -257,8 +268,8 @@ def _blocked(geom: Geometry, brdf) -> Side | None:
 
 
 def _peaks(geom: Geometry, brdf):
-    """ln of the brightest value ahead and behind for each incidence, the incidences, and how far the peak behind lies
-    beyond theta_i."""
+    """ln of the brightest value ahead and behind for each incidence, the incidences, how far the peak behind lies
+    beyond theta_i, and by how much in ln the values behind fall from about there to farther on: NaN but at low ones."""
     with np.errstate(invalid="ignore", divide="ignore"):
         good = np.isfinite(brdf) & (brdf > 0)
         value = np.where(good, np.log(np.where(good, brdf, 1.0)), np.nan)
@@ -269,7 +280,7 @@ def _peaks(geom: Geometry, brdf):
     near = (geom.off_plane_deg[:, 0] <= NEAR_PLANE_DEG) & (theta_r >= STEEP_DEG) & np.isfinite(level)
     groups = np.round(theta_i)
     angles = np.unique(groups[near & (groups >= STEEP_DEG)])
-    ahead, behind, beyond = (np.full(len(angles), np.nan) for _ in range(3))
+    ahead, behind, beyond, falls = (np.full(len(angles), np.nan) for _ in range(4))
     for place, angle in enumerate(angles):
         rows = near & (groups == angle)
         for peak, side in ((ahead, rows & forward), (behind, rows & ~forward)):
@@ -278,4 +289,8 @@ def _peaks(geom: Geometry, brdf):
         if np.any(rows & ~forward):
             found = np.flatnonzero(rows & ~forward)
             beyond[place] = theta_r[found[np.argmax(level[found])]] - angle
-    return ahead, behind, angles, beyond
+            past = theta_r[found] - angle
+            about, farther = np.abs(past) <= ABOUT_DEG, (past >= BESIDE_DEG[0]) & (past <= BESIDE_DEG[1])
+            if LOW_DEG[0] <= angle <= LOW_DEG[1] and about.any() and farther.any():
+                falls[place] = level[found[about]].mean() - level[found[farther]].mean()
+    return ahead, behind, angles, beyond, falls

@@ -14,8 +14,8 @@ STEEP_DEG = 12.0  # incidences nearer to the normal do not separate source and m
 
 @dataclass(frozen=True)
 class Retro:
-    """Medians over the incidences under each turn: how far the lobe about the source stands above its surroundings,
-    and relative to the mirror side."""
+    """Medians over the incidences under each turn: how far the lobe about the source stands above its surroundings, on
+    the side of the mirror direction and on the other, and relative to the mirror side."""
 
     lobe: float
     over_mirror: float
@@ -52,5 +52,6 @@ def _by_incidence(measurement: Measurement) -> Iterator[tuple[float, float | Non
         around, ahead = rows[about[rows]], rows[before[rows]]
         if not len(around):
             continue
-        highest = level[near].max()
-        yield highest / np.median(level[around]), highest / level[ahead].max() if len(ahead) else None
+        highest, nearer = level[near].max(), mirror[around] < 2 * angle
+        sides = [np.median(level[side]) for side in (around[nearer], around[~nearer]) if len(side)]
+        yield highest / max(sides), highest / level[ahead].max() if len(ahead) else None

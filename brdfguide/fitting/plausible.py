@@ -12,6 +12,7 @@ from ..physics import fresnel
 from .ranked import BETTER, Row
 
 MOST_NAMED = 3  # in an aside
+AT_BOUND = "a parameter at its bound"
 NEAR_GROWTH = log(1.5)  # |ln| of a model's rise in the mirror direction over the data's, up to which it is near (ours)
 FAR_GROWTH = log(2.5)  # the same, from which on it is far (ours)
 
@@ -19,12 +20,14 @@ FAR_GROWTH = log(2.5)  # the same, from which on it is far (ours)
 def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Row], str]:
     """Those of `rows` that may be recommended, and an aside on the others; never none.
 
-    After the verdict "dielectric" a lobe has Fresnel's factor; none whose rise toward grazing is far from the data's
+    After the verdict "dielectric" a lobe has Fresnel's factor, unless it has a parameter at its bound; none whose rise toward grazing is far from the data's
     while another's is near; none at a bound while another is inside; where the kind is not known, none of the other
     kind than the best, but a metal where that is a dielectric with a lobe as bright as none has.
     """
     aside = ""
     if kind == "dielectric":
+        if not any(_has_fresnel(row) and _inside(row) for row in rows):
+            rows, aside = _sifted(rows, _inside, aside, AT_BOUND)
         rows, aside = _sifted(rows, _has_fresnel, aside, "no Fresnel factor, which a dielectric's lobe has")
     elif kind is None and too_bright_for_a_dielectric(best) is not None:
         rows, aside = _sifted(rows, is_metal, aside, "a lobe as bright near the normal as no dielectric's surface")
@@ -35,7 +38,7 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
             aside,
             "another kind of surface, which these data leave open",
         )
-    rows, aside = _sifted(rows, _inside, aside, "a parameter at its bound")
+    rows, aside = _sifted(rows, _inside, aside, AT_BOUND)
     if any(growth_error(row) <= NEAR_GROWTH for row in rows):
         rows, aside = _sifted(
             rows, lambda row: growth_error(row) < FAR_GROWTH, aside, "another rise toward grazing than the data"
