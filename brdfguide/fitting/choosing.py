@@ -20,6 +20,7 @@ from .ranked import REAL, Ranking, Row
 
 ALLOWED = 0.05  # rms ln that closeness to the eye may always cost: typically 5 % (ours)
 ALLOWED_SHARE = 0.25  # of the best error, where that is more: the tolerance that its S has as well (ours)
+DIFFERENT_SHARE = 0.5  # the same where the best is seen to be clearly different: the eye is then asked first (ours)
 SIMPLER = 0.9  # times the fewest numbers of those that tie, up to which another is simpler, as closeness asks (ours)
 CHEAPER = 0.8  # times the operations of another, from which on a model is called cheaper
 MUCH_LESS = 1.5  # times the error of another with as few numbers, from which on the other is to be preferred (ours)
@@ -62,7 +63,8 @@ def _is_close(row: Row, good: Sequence[Row], close: str, grain: bool) -> bool:
         if grain and not row.fit.model.turns:
             return False
         least = min(each.seen for each in good)
-        allowed = best.rms_ln + max(ALLOWED, ALLOWED_SHARE * best.rms_ln) + 1e-9
+        share = ALLOWED_SHARE if best.seen < seen.NO_MODEL else DIFFERENT_SHARE
+        allowed = best.rms_ln + max(ALLOWED, share * best.rms_ln) + 1e-9
         return row is best or (seen.close_enough(row.seen, least) and row.rms_ln <= allowed)
     return row.rms_ln - best.rms_ln <= percent_of(close) / 100
 
@@ -89,7 +91,8 @@ def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) ->
     """The cheapest of those that tie with the best trusted one or come close enough to it, and the reason in words.
 
     Of several that cost alike one that ties, and the simplest. Where closeness does not count, the simplest of those
-    that cannot be told apart. Closeness counts for what is simpler than those that tie. Of those that tie none that is
+    that cannot be told apart. Closeness counts for what is simpler than those that tie, and for what is seen to be
+    closer than the best. Of those that tie none that is
     systematically off and errs more at angles left out than another; none that what is known of the surface
     (`plausible`; its `kind`) rules out; none that is merely cheaper than another with as few numbers and much less
     error (`_outdone`).
@@ -100,9 +103,10 @@ def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) ->
     near = [row for row in good if row.close and row not in equal]
     aside = _passed(rows[: rows.index(best)])
     if close == "look":
-        farther = [row for row in equal if _seen_farther(row, best)]
+        nearest = min((best, *near), key=lambda row: row.seen)
+        farther = [row for row in equal if _seen_farther(row, nearest)]
         equal = [row for row in equal if row not in farther]
-        aside += _but_farther(farther, best)
+        aside += _but_farther([row for row in farther if row is not best], best)
     equal, doubts = foreseeing(equal)
     aside += doubts
     left, doubts = plausible([*equal, *near], best, kind)
@@ -155,9 +159,9 @@ def _outdone(rows: Sequence[Row]) -> tuple[list[Row], list[Row]]:
     return stand, [row for row in rows if row not in stand]
 
 
-def _seen_farther(row: Row, best: Row) -> bool:
-    """Whether nine of ten people would see that a row is farther from the data than the best."""
-    return row.seen >= max(seen.ALIKE, seen.CLEARER * best.seen)
+def _seen_farther(row: Row, nearest: Row) -> bool:
+    """Whether nine of ten people would see that a row is farther from the data than another."""
+    return row.seen >= max(seen.ALIKE, seen.CLEARER * nearest.seen)
 
 
 def _but_farther(rows: Sequence[Row], best: Row) -> str:
@@ -201,7 +205,8 @@ def _close_words(pick: Row, best: Row, close: str) -> str:
     cost = f"typically {100 * np.expm1(pick.rms_ln):.2g} % off instead of {100 * np.expm1(best.rms_ln):.2g} %"
     if close != "look":
         return f"close enough to {best.fit.name}, {cost}"
-    return f"looks close enough to {best.fit.name} (S {pick.seen:.2g} against {best.seen:.2g} L*; {cost})"
+    looks = "closer than" if _seen_farther(best, pick) else "close enough to"
+    return f"looks {looks} {best.fit.name} (S {pick.seen:.2g} against {best.seen:.2g} L*; {cost})"
 
 
 def _no_look(rows: Sequence[Row]) -> Finding | None:

@@ -20,9 +20,10 @@ FAR_GROWTH = log(2.5)  # the same, from which on it is far (ours)
 def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Row], str]:
     """Those of `rows` that may be recommended, and an aside on the others; never none.
 
-    After the verdict "dielectric" a lobe has Fresnel's factor, unless it has a parameter at its bound; none whose rise toward grazing is far from the data's
-    while another's is near; none at a bound while another is inside; where the kind is not known, none of the other
-    kind than the best, but a metal where that is a dielectric with a lobe as bright as none has.
+    After the verdict "dielectric" a lobe has Fresnel's factor, unless it has a parameter at its bound; none whose rise
+    toward grazing is far from the data's while another's is near; none at a bound while another is inside; where the
+    kind is not known, none of the other kind than the best, but a metal where that is a dielectric with a lobe as
+    bright as none has.
     """
     aside = ""
     if kind == "dielectric":

@@ -72,6 +72,18 @@ def test_what_looks_alike_but_misses_by_far_more_is_not_close():
     assert found.recommended.fit.name == "lambertian+ggx"
 
 
+def test_what_is_seen_to_be_closer_goes_before_less_error():
+    """Whether simpler or not; and where the best looks different, also for half as much error again."""
+    found = recommended(rows((0.22, 0.24, 0.26), (7.9, 5.3, 5.2)), "look")
+    assert found.recommended.fit.name == "lambertian+ward"
+    assert found.because.startswith("looks closer than lambertian+he-torrance (S 5.2 against 7.9 L*; typically")
+    assert recommended(rows((0.22, 0.30, 0.60), (7.9, 5.2, 5.2)), "look").recommended.rms_ln == 0.22
+    assert recommended(rows((0.22, 0.30, 0.60), (8.1, 5.2, 5.2)), "look").recommended.rms_ln == 0.30
+    assert recommended(rows((0.22, 0.24, 0.26), (2.4, 1.1, 1.0)), "look").recommended.rms_ln == 0.26, "as cheaper"
+    metrology = recommended(rows((0.22, 0.24, 0.26), (7.9, 5.3, 5.2)), "none")
+    assert metrology.recommended.fit.name == "lambertian+he-torrance"
+
+
 def test_metrology_takes_ties_alone():
     found = recommended(rows((0.05, 0.051, 0.052), (1.0, 1.0, 1.0)), "none")
     assert found.recommended.fit.name == "lambertian+he-torrance" and not any(row.close for row in found.rows)

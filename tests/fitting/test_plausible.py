@@ -104,3 +104,14 @@ def test_a_parameter_at_its_bound_loses_to_one_inside():
     stuck = replace(stuck, fit=replace(stuck.fit, warnings=(at_bound,)))
     inside = row("lambertian+beckmann", 0.1, 3)
     assert picked((inside, stuck))[0] is inside
+
+
+def test_a_stand_in_with_fresnel_at_a_bound_is_not_taken_for_a_best_without():
+    """Its factor stands for nothing there: a coat of n 3 over flakes was taken for a law with a third of its error."""
+    at_bound = Finding("at-bound", "at its high bound", "warning", subject="coat.n")
+    best = row("lambertian+phong", 0.02, 4)
+    coat = replace(row("lambertian+ggx", 0.07, 3, tied=False), close=True)
+    coat = replace(coat, fit=replace(coat.fit, warnings=(at_bound,)))
+    pick, because = picked((best, coat), "look", "dielectric")
+    assert pick is best and "lambertian+ggx has a parameter at its bound" in because
+    assert picked((best, replace(coat, fit=replace(coat.fit, warnings=()))), "look", "dielectric")[0] is not best
