@@ -169,6 +169,10 @@ def oren_nayar(p, albedo, spread):
     return once + mpf("0.17") * albedo**2 / pi * s2 / (s2 + mpf("0.13")) * (1 - c * (2 * b / pi) ** 2)
 
 
+def lommel_seeliger(p, w):
+    return w / (4 * pi * (p.cos_i + p.cos_r))
+
+
 def eon(p, albedo, roughness):
     r, c1, c2 = roughness, mpf(1) / 2 - 2 / (3 * pi), mpf(2) / 3 - 28 / (15 * pi)
     s = p.i[0] * p.r[0] + p.i[1] * p.r[1]
@@ -257,6 +261,7 @@ LAWS: dict[str, Callable[..., Any]] = {
     "beckmann": beckmann_lobe,
     "ggx": ggx_lobe,
     "oren-nayar": oren_nayar,
+    "lommel-seeliger": lommel_seeliger,
     "eon": eon,
     "coupled": coupled,
     "mirror": mirror,

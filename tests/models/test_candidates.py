@@ -16,7 +16,7 @@ def test_a_metal_has_no_subsurface_term():
 
 def test_a_dielectric_always_has_one():
     for candidate in candidates.of_kind("dielectric"):
-        assert candidate.terms[0].label in ("lambertian", "oren-nayar")
+        assert candidate.terms[0].label in ("lambertian", "oren-nayar", "lommel-seeliger")
 
 
 def test_an_unknown_kind_gets_both_sorts():
