@@ -38,15 +38,17 @@ class Hypothesis:
 def unknown() -> tuple[Hypothesis, ...]:
     """Every law of the default ranking on surfaces from gloss to matt, from dark to white, and of metal."""
     found = []
-    for place, model in enumerate(candidates.of_kind(None)):
+    for place, model in enumerate(filter(_has_lobe, candidates.of_kind(None))):
         has_body = any(term.model.is_body for term in model.terms)
-        if not any(term.model.is_lobe and not term.model.is_body for term in model.terms):
-            continue
         for number, alpha in enumerate(ALPHAS):
             f0 = 0.04 if has_body else METALS[(place + number) % len(METALS)]
             albedo = BODIES[(place + number) % len(BODIES)] if has_body else None
             found.append(Hypothesis.of(Surface(model, _start(model, alpha, f0, albedo))))
     return tuple(found)
+
+
+def _has_lobe(model: Composite) -> bool:
+    return any(term.model.is_lobe and not term.model.is_body for term in model.terms)
 
 
 def _start(model: Composite, alpha: float, f0: float, albedo: float | None) -> dict:
