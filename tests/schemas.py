@@ -26,6 +26,7 @@ COMMANDS = (
     f"fit {PAPER} -m lambertian --json --no-timing --as gltf",
     f"fit {PAPER} -m oren-nayar+ggx --json --no-timing --theta-max 60",
     f"fit {ALUMINIUM} -m ggx --kind metal --json --baselines --export mitsuba:{{out}}/it.xml --aperture-deg 1",
+    f"fit {ALUMINIUM} -m lambertian+student-t,lambertian+lafortune:2 --json --no-timing",
     "fit {abg} --json --no-timing",
     "fit {grain} -m ggx-aniso --kind metal --json --no-timing",
     f"fit {PAPER} {PLASTIC} -m lambertian --json",

@@ -187,6 +187,15 @@ class PrintedIfRight:
     candidate: str
     probability: float
     rms_ln: float
+    grazing_rms_ln: Number
+
+
+@dataclass(frozen=True)
+class PrintedGrazing:
+    """The error that is expected toward grazing."""
+
+    rms_ln: Number
+    expected_percent: Number
 
 
 @dataclass(frozen=True)
@@ -198,6 +207,7 @@ class PrintedPrice:
     probability: Number
     if_right: tuple[PrintedIfRight, ...]
     expected_percent: Number
+    toward_grazing: PrintedGrazing | None
     apart: tuple[PrintedRival, ...]
 
 

@@ -234,11 +234,16 @@ def price(answer: dict, rows: Mapping[str, RowOfAnswer], data: Readings, found: 
     told, best = answer.get("off_plane"), rows.get(answer["recommended"])
     if told is None or best is None:
         return
-    expected, probability = _most_probable(told["if_right"], mpf(told["rms_ln"]))
+    expected, probability, grazing = _most_probable(told["if_right"], mpf(told["rms_ln"]))
     found.loosened(best.surface.slack).check("off_plane.in_plane_rms_ln", told["in_plane_rms_ln"], best.rms)
     found.check("off_plane.rms_ln", told["rms_ln"], expected)
     found.check("off_plane.probability", told["probability"], probability)
     found.rounded("off_plane.expected_percent", told["expected_percent"], _percent(expected), PRICE_DIGITS)
+    steep = told["toward_grazing"]
+    if steep is not None and grazing is not None:
+        place = "off_plane.toward_grazing"
+        found.check(f"{place}.rms_ln", steep["rms_ln"], grazing)
+        found.rounded(f"{place}.expected_percent", steep["expected_percent"], _percent(grazing), PRICE_DIGITS)
     then = {each["candidate"]: mpf(each["rms_ln"]) for each in told["if_right"]}
     for number, each in enumerate(told["apart"]):
         place = f"off_plane.apart[{number}]"
@@ -255,21 +260,27 @@ def price(answer: dict, rows: Mapping[str, RowOfAnswer], data: Readings, found: 
 
 
 def _most_probable(laws: list[dict], told):
-    """The error that is told, and its probability: of the laws around one, the group with most; of groups with as much,
-    as where two laws stand for each other, the one that is nearest to what was told."""
+    """The error that is told, its probability, and the same laws' error toward grazing: of the laws around one, the
+    group with most; of groups with as much, as where two laws stand for each other, the one that is nearest to what was
+    told."""
     groups = []
     for one in laws:
         near = [each for each in laws if _alike(each["rms_ln"], one["rms_ln"])]
         weight = fsum(mpf(each["probability"]) for each in near)
-        power = fsum(mpf(each["probability"]) * mpf(each["rms_ln"]) ** 2 for each in near)
         if weight > 0:
-            groups.append((weight, sqrt(power / weight)))
-    most = max(weight for weight, _ in groups)
+            groups.append((weight, _mean_error(near, "rms_ln", weight), near))
+    most = max(weight for weight, _, _ in groups)
     total = fsum(mpf(each["probability"]) for each in laws)
-    weight, expected = min(
+    weight, expected, near = min(
         (each for each in groups if each[0] >= most * (1 - mpf(CLOSE))), key=lambda each: abs(each[1] - told)
     )
-    return expected, weight / total
+    steep = all(each["grazing_rms_ln"] is not None for each in near)
+    return expected, weight / total, _mean_error(near, "grazing_rms_ln", weight) if steep else None
+
+
+def _mean_error(laws: list[dict], key: str, weight):
+    """rms over the laws by their probability."""
+    return sqrt(fsum(mpf(each["probability"]) * mpf(each[key]) ** 2 for each in laws) / weight)
 
 
 def _alike(one: float, other: float) -> bool:

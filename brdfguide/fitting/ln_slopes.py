@@ -23,7 +23,6 @@ def ln_with_slopes(layout: Layout, surface: Surface, instrument: Instrument) -> 
     return np.log(f), np.clip(out, -STEEPEST_LN, STEEPEST_LN)
 
 
-def _size(layout: Layout, surface: Surface, key: str) -> float:
-    """Of a parameter whose coordinate is its value: that, so that its derivative is by ln."""
-    value = float(np.mean(np.abs(to_coordinate(layout.parameters[key], surface.values[key]))))
-    return max(value, 1e-3)
+def _size(layout: Layout, surface: Surface, key: str) -> np.ndarray:
+    """Of a parameter whose coordinate is its value: that, in each channel its own, so that its derivative is by ln."""
+    return np.maximum(np.abs(to_coordinate(layout.parameters[key], np.asarray(surface.values[key]))), 1e-3)

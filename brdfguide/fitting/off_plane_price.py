@@ -6,10 +6,14 @@ Any of the laws near the best may be the right one, and none is exactly:
 
 J, its derivatives by ln of its parameters; δ, what it misses, smooth in the directions and known from the residuals in
 the plane (`numerics.gaussian_process`). The kernel's widths are those that make what laws miss of nine measured tables
-most probable (benchmarks/what_laws_miss.py); nothing is fitted to the made surfaces that it is judged by
+most probable (benchmarks/what_laws_miss.py); how large δ is beforehand, and how far a parameter that the plane leaves
+loose moves the surface outside, are those by which scans taken of these tables foretell their rest
+(benchmarks/off_plane_tables.py). Nothing is fitted to the made surfaces that it is judged by as well
 (benchmarks/off_plane_price.py). Each law foretells the surface outside, and so the error there of the recommended one;
 told is the one within 25 % of which it most probably lies, for values with the noise of those in the plane. Laws that
-tie in the plane, or may as well be right, and by which the error is another are told beside it.
+tie in the plane, or may as well be right, and by which the error is another are told beside it. Toward grazing, where
+laws miss most and least evenly, it is a number of its own. Where a channel was too dark to be read in the plane, its
+directions outside that are as dark count for nothing: nobody reads them there either.
 """
 
 from functools import lru_cache
@@ -17,7 +21,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..data.measurement import SMALLEST, Measurement
-from ..numerics.gaussian_process import Foretold, Places, Weighed, weighed
+from ..numerics.gaussian_process import Places, Weighed, weighed
 from ..physics.aperture import Instrument
 from ..physics.directions import Directions
 from ..physics.geometry import Geometry
@@ -38,11 +42,15 @@ SAMPLES = 300  # directions in the plane that count
 TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes with the tilt, beyond with its logarithm
 # of the kernel: asinh(tan tilt/TILT), angle from light to half vector [deg], θi + θr [deg], sin θi sin θr cos φ
 WIDTHS = (0.85, 25.0, 200.0, 0.5)
+GRAZING_DEG = 130.0  # of θi + θr, beyond which a direction is told apart
+MISSED = 0.1  # ln, how large what a law misses usually is
+MOVES = 0.15  # ln, rms over the directions outside: how far one parameter usually moves the surface from the fitted one
+DARKEST = 0.5  # of the least value in a channel that was too dark elsewhere: what is darker cannot be read
 NEAR = 4.0  # times the recommended law's error, up to which another may be right once what it misses is smooth
 MOST_LAWS = 12
 # Lobes about the mirror direction fit measured surfaces less often (Ngan et al. 2005, "Experimental analysis of BRDF
 # models"), and in the plane are often the twins of lobes about the half vector: how probable beforehand
-ABOUT_MIRROR = 0.5  # ours
+ABOUT_MIRROR = 0.1  # ours
 LEAST_PROBABLE = 0.01  # of a law that counts
 AS_WELL = 0.05  # probability from which a law that does not tie is told beside
 WITHIN = np.log(1.25)  # errors so near are one
@@ -64,11 +72,13 @@ class Apart:
 
 @dataclass(frozen=True)
 class IfRight:
-    """How probable a law is after the data, and the recommended one's error outside if it is right."""
+    """How probable a law is after the data, and the recommended one's error outside if it is right; toward grazing,
+    None where no direction is."""
 
     name: str
     probability: float
     rms_ln: float
+    grazing: float | None = None
 
 
 @dataclass(frozen=True)
@@ -79,6 +89,7 @@ class Price:
     probability: float  # that the law that is right is one by which the error is within 25 % of it
     in_plane: float
     by_law: tuple[IfRight, ...]  # most probable first
+    grazing: float | None  # the same toward grazing, by the same laws; None where no direction is
     apart: tuple[Apart, ...] = ()
 
 
@@ -90,33 +101,40 @@ def off_plane_price(ranking: Ranking, measurement: Measurement) -> Price | None:
     there, weights = outside_plane(measurement)
     laws = _laws(ranking)
     known = _Known.of(measurement, laws, there)
-    if len(known.part.brdf) < LEAST_SAMPLES:
+    if not known.channels:
         return None
-    known_there = [known.weighs(place, row.fit) for place, row in enumerate(laws)]
     best = next(place for place, row in enumerate(laws) if row is ranking.recommended)
-    probable = np.array([known.evidence(each) + _beforehand(row) for each, row in zip(known_there, laws, strict=True)])
+    said = [known.law(place, row.fit) for place, row in enumerate(laws)]
+    weights = known.counted(said[best], weights)
+    steep = toward_grazing(there.geom)
+    if not np.any(weights[~steep]):
+        return None
+    probable = np.array([each.evidence + _beforehand(row) for each, row in zip(said, laws, strict=True)])
     probable = np.exp(probable - probable.max())
     probable /= probable.sum()
-    count = [place for place, row in enumerate(laws) if probable[place] >= LEAST_PROBABLE or row.tied or place == best]
-    said = {place: known.foretells(laws[place].fit, known_there[place]) for place in count}
-    then = {place: _rounded(known.error(each, each.ln - said[best].ln, weights)) for place, each in said.items()}
-    counted = [IfRight(laws[place].fit.name, _rounded(probable[place]), then[place]) for place in count]
-    by_law = tuple(sorted(counted, key=lambda each: -each.probability))
-    expected, probability = most_probable(by_law)
+    by_place = {}
+    for place, row in enumerate(laws):
+        if probable[place] >= LEAST_PROBABLE or row.tied or place == best:
+            squares = known.squares(said[place], said[best])
+            grazing = _rms(squares, weights, steep) if np.any(weights[steep]) else None
+            by_place[place] = IfRight(row.fit.name, _rounded(probable[place]), _rms(squares, weights, ~steep), grazing)
+    by_law = tuple(sorted(by_place.values(), key=lambda each: -each.probability))
+    expected, probability, grazing = most_probable(by_law)
     rivals = [
         (place, row)
         for place, row in sorted(enumerate(laws), key=lambda each: -probable[each[0]])
         if place != best and (row.tied or probable[place] >= AS_WELL)
     ]
+    seen = np.where(steep, 0.0, weights.min(axis=1))
     ln = {place: known.ln_of(laws[place].fit, said[place], there) for place in (best, *(each[0] for each in rivals))}
-    apart = [_apart(row, ln[place] - ln[best], then[place], weights, there) for place, row in rivals]
+    apart = [_apart(row, ln[place] - ln[best], by_place[place].rms_ln, seen, there) for place, row in rivals]
     told = tuple(each for each in apart if each.rms_ln > PARTS and abs(np.log(each.then / expected)) > WITHIN)
-    return Price(expected, probability, ranking.recommended.rms_ln, by_law, told)
+    return Price(expected, probability, ranking.recommended.rms_ln, by_law, grazing, told)
 
 
-def most_probable(by_law: tuple[IfRight, ...]) -> tuple[float, float]:
+def most_probable(by_law: tuple[IfRight, ...]) -> tuple[float, float, float | None]:
     """The error of the group of laws, alike within 25 % to one of them, that is most probable: rms over it by
-    probability; and how probable it is of all that count."""
+    probability; how probable it is of all that count; and the group's error toward grazing."""
 
     def group(of: IfRight) -> list[IfRight]:
         return [each for each in by_law if abs(np.log(each.rms_ln / of.rms_ln)) <= WITHIN]
@@ -126,7 +144,14 @@ def most_probable(by_law: tuple[IfRight, ...]) -> tuple[float, float]:
 
     best = max((group(each) for each in by_law), key=weight)
     mean = sum(each.probability * each.rms_ln**2 for each in best) / weight(best)
-    return float(np.sqrt(mean)), float(weight(best) / weight(by_law))
+    steep = [each.probability * each.grazing**2 for each in best if each.grazing is not None]
+    grazing = float(np.sqrt(sum(steep) / weight(best))) if steep else None
+    return float(np.sqrt(mean)), float(weight(best) / weight(by_law)), grazing
+
+
+def _rms(squares: np.ndarray, weights: np.ndarray, here: np.ndarray) -> float:
+    """Over the directions that are asked for, in all channels."""
+    return _rounded(np.sqrt(np.sum(weights[here] * squares[here]) / np.sum(weights[here])))
 
 
 def _rounded(number) -> float:
@@ -146,6 +171,11 @@ def _outside(highest: float) -> tuple[Geometry, np.ndarray]:
     geom, weights = hemisphere(highest)
     off = geom.off_plane_deg[:, 0] >= OFF_DEG
     return geom[off], weights[off] / weights[off].sum()
+
+
+def toward_grazing(geom: Geometry) -> np.ndarray:
+    """(directions,): whether both angles add up to more than what is told as one."""
+    return (geom.theta_i_deg + geom.theta_r_deg)[:, 0] > GRAZING_DEG
 
 
 def places_of_missed(geom: Geometry) -> np.ndarray:
@@ -177,75 +207,105 @@ def _beforehand(row: Row) -> float:
 
 @dataclass(frozen=True, eq=False)
 class _Said:
-    """What one law says of the directions outside: ln f (directions, channels), and what it misses, by channel."""
+    """What one law says: ln f outside (directions, channels) and its derivatives, by how much a parameter may be off
+    (directions, channels, parameters); what the values say of it, by channel that counts; how probable it makes
+    them."""
 
     ln: np.ndarray
-    missed: tuple[Foretold, ...]
+    onward: np.ndarray
+    weighed: tuple[Weighed, ...]
+    evidence: float
 
 
 @dataclass(frozen=True, eq=False)
 class _Known:
-    """Few channels and directions in the plane with a value that every law is compared with, and those outside."""
+    """Few channels and directions in the plane with a value, and those outside."""
 
-    part: Measurement
-    channels: np.ndarray
     inside: Instrument
     there: Instrument
-    places: Places
-    left: list[np.ndarray]  # by each law, ln(data/model) (directions, channels)
+    thinned: int  # how many channels
+    channels: tuple[int, ...]  # of these, those with enough values that every law is compared with
+    rows: np.ndarray  # (directions, thinned channels): where every law is
+    darkest: np.ndarray  # (thinned channels,): ln of what can be read
+    places: tuple[Places, ...]  # by channel that counts
+    left: list[np.ndarray]  # by each law, ln(data/model) (directions, thinned channels)
 
     @classmethod
     def of(cls, measurement: Measurement, laws: list[Row], there: Instrument) -> "_Known":
         rows = np.flatnonzero(measurement.has_value)
         rows = rows[starting_grid.spread_rows(measurement[rows], SAMPLES)]
         part = measurement if len(rows) == len(measurement.brdf) else measurement[rows]
-        channels = few_channels(measurement.brdf.shape[1])
+        thinned = few_channels(measurement.brdf.shape[1])
         left = [
             -(
                 row.fit.residuals[rows]
                 if len(row.fit.residuals) == len(measurement.brdf)
                 else row.fit.residuals_on(part)
-            )[:, channels]
+            )[:, thinned]
             for row in laws
         ]
-        clear = np.all([np.isfinite(each).all(axis=1) for each in left], axis=0)
-        part = part if clear.all() else part[clear]
-        geom = part.of_channels(channels).geom
+        shared = np.all([np.isfinite(each) for each in left], axis=0)
+        channels = tuple(int(each) for each in np.flatnonzero(shared.sum(axis=0) >= LEAST_SAMPLES))
+        geom = part.of_channels(thinned).geom
         there = Instrument(there.geom.at(geom.wavelength), there.solid_angle)
-        places = Places.between(places_of_missed(geom), *there.geom.formed(_places_once))
-        return cls(part, channels, Instrument(geom, part.solid_angle), there, places, [each[clear] for each in left])
+        onward, which = there.geom.formed(_places_once)
+        points: np.ndarray = places_of_missed(geom)
+        alike: dict[bytes, Places] = {}
+        for channel in channels:  # mostly all channels have the same directions
+            key = shared[:, channel].tobytes()
+            if key not in alike:
+                alike[key] = Places.between(points[shared[:, channel]], onward, which)
+        places = tuple(alike[shared[:, channel].tobytes()] for channel in channels)
+        inside, darkest = Instrument(geom, part.solid_angle), _darkest(measurement.brdf[:, thinned])
+        return cls(inside, there, len(thinned), channels, shared, darkest, places, left)
 
-    def weighs(self, place: int, fit: Fit) -> tuple[Weighed, ...]:
-        """What the values say of the law at this place, by channel."""
-        _, slopes = ln_with_slopes(layout_of(fit.model, len(self.channels)), thinned_surface(fit), self.inside)
-        left = self.left[place]
-        return tuple(weighed(self.places, left[:, c], slopes[:, c]) for c in range(len(self.channels)))
+    def law(self, place: int, fit: Fit) -> _Said:
+        """What the law at this place says, and the values of it."""
+        layout, surface = layout_of(fit.model, self.thinned), thinned_surface(fit)
+        ln, onward = ln_with_slopes(layout, surface, self.there)
+        onward = np.where((ln < self.darkest)[:, :, None], 0.0, onward)
+        moves = np.sqrt(np.mean(onward**2, axis=(0, 1)))
+        off = np.minimum(1.0, MOVES / np.maximum(moves, MOVES))
+        _, slopes = ln_with_slopes(layout, surface, self.inside)
+        known = []
+        for channel, places in zip(self.channels, self.places, strict=True):
+            rows = self.rows[:, channel]
+            known.append(weighed(places, self.left[place][rows, channel], slopes[rows, channel] * off, MISSED))
+        # of one channel, since all tell of the same directions
+        evidence = float(np.mean([each.evidence for each in known]))
+        return _Said(ln, onward * off, tuple(known), evidence)
 
-    def foretells(self, fit: Fit, known: tuple[Weighed, ...]) -> _Said:
-        """What a law says outside, and what it misses there."""
-        ln, onward = ln_with_slopes(layout_of(fit.model, len(self.channels)), thinned_surface(fit), self.there)
-        return _Said(ln, tuple(each.elsewhere(onward[:, c]) for c, each in enumerate(known)))
+    def counted(self, best: _Said, weights: np.ndarray) -> np.ndarray:
+        """Weights (directions, thinned channels) of what can be read where the recommended law is right."""
+        counts = np.isin(np.arange(self.thinned), self.channels)
+        return weights[:, None] * (counts & (best.ln >= self.darkest))
+
+    def squares(self, said: _Said, best: _Said) -> np.ndarray:
+        """Square of ln (directions, thinned channels) by which the recommended law is off if this one is right."""
+        squares = np.zeros_like(said.ln)
+        gap = np.maximum(said.ln, self.darkest) - np.maximum(best.ln, self.darkest)
+        for channel, known in zip(self.channels, said.weighed, strict=True):
+            missed = known.elsewhere(said.onward[:, channel])
+            squares[:, channel] = (gap[:, channel] + missed.mean) ** 2 + missed.variance + missed.noise
+        return squares
 
     def ln_of(self, fit: Fit, said: _Said, there: Instrument) -> np.ndarray:
         """ln of what the instrument reads outside, mean over all channels, (directions,)."""
-        if len(self.channels) == len(fit.surface.channels):
+        if self.thinned == len(fit.surface.channels):
             return np.mean(said.ln, axis=1)
         return np.mean(np.log(np.maximum(reading(fit.surface, there), SMALLEST)), axis=1)
 
-    def evidence(self, known: tuple[Weighed, ...]) -> float:
-        """ln of how probable a law makes the values: of one channel, since all tell of the same directions."""
-        return float(np.mean([each.evidence for each in known]))
 
-    def error(self, said: _Said, gap: np.ndarray, weights: np.ndarray) -> float:
-        """rms of ln of the recommended law outside if this one is right, which lies `gap` above it."""
-        squares = [
-            (gap[:, channel] + each.mean) ** 2 + each.variance + each.noise for channel, each in enumerate(said.missed)
-        ]
-        return float(np.sqrt(np.mean(squares, axis=0) @ weights))
+def _darkest(brdf: np.ndarray) -> np.ndarray:
+    """ln of the least that can be read, by channel; below every number where nothing was too dark."""
+    read = brdf > 0
+    least = np.min(np.where(read, brdf, np.inf), axis=0)
+    return np.where(read.all(axis=0), -np.inf, np.log(DARKEST * least))
 
 
 def _apart(row: Row, difference: np.ndarray, then: float, weights: np.ndarray, there: Instrument) -> Apart:
-    order, geom = np.argsort(-np.abs(difference), kind="stable")[:FAR], there.geom
+    order, geom = np.argsort(-np.abs(difference) * (weights > 0), kind="stable")[:FAR], there.geom
     angles = np.concatenate([geom.theta_i_deg, geom.theta_r_deg, geom.phi_deg], axis=1)
     places = tuple((*np.round(angles[each], 1).tolist(), float(difference[each])) for each in order)
-    return Apart(row.fit.name, float(np.sqrt(weights @ difference**2)), then, places, row.tied)
+    rms = np.sqrt(weights @ difference**2 / max(weights.sum(), SMALLEST))
+    return Apart(row.fit.name, float(rms), then, places, row.tied)

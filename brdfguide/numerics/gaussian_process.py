@@ -3,8 +3,9 @@
     r = J b + δ + noise,   b ~ N(0, 1),   δ ~ N(0, s² k),   noise ~ N(0, n²)
 
 with k a kernel between places. n is the most probable one for every s/n; s/n is averaged over, by how probable it makes
-the values (Rasmussen and Williams 2006, "Gaussian processes for machine learning", chapters 2 and 5; as what a model
-lacks, Kennedy and O'Hagan 2001, "Bayesian calibration of computer models").
+the values, and s is beforehand, half a Gaussian (Rasmussen and Williams 2006, "Gaussian processes for machine
+learning", chapters 2 and 5; as what a model lacks, Kennedy and O'Hagan 2001, "Bayesian calibration of computer
+models").
 """
 
 from functools import cached_property
@@ -94,8 +95,9 @@ class Weighed:
         return Foretold(mean, np.maximum(square - mean**2, 0.0), float(self.probable @ self.noise / share))
 
 
-def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
-    """Takes  values r (N,), and slopes J (N, p) where they are."""
+def weighed(places: Places, values: np.ndarray, slopes: np.ndarray, usual: float = np.inf) -> Weighed:
+    """Takes  values r (N,), and slopes J (N, p) where they are; the s that is usual, of which most are smaller: the
+    width of the half Gaussian."""
     q, j = places.vectors.T @ values, places.vectors.T @ slopes
     count, unit = len(values), np.eye(j.shape[1])
     # by the other eigenvectors values are noise alone, and count once: of them the sums are enough
@@ -112,7 +114,7 @@ def weighed(places: Places, values: np.ndarray, slopes: np.ndarray) -> Weighed:
     moved = _solved(inside, pull)
     determinant = np.linalg.slogdet(inside)[1] - j.shape[1] * np.log(noise) - places.ln_weights
     left = (power - np.sum(pull * moved, axis=1)) / noise
-    evidence = -0.5 * (count * np.log(noise) + determinant + left)
+    evidence = -0.5 * (count * np.log(noise) + determinant + left + RATIOS * noise / usual**2)
     probable = np.exp(evidence - evidence.max())
     total = float(np.log(np.mean(probable)) + evidence.max())
     probable = np.where(probable >= COUNTS * probable.max(), probable, 0.0) / probable.sum()

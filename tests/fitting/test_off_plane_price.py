@@ -42,8 +42,9 @@ def test_it_is_the_error_of_the_laws_that_are_most_probable_after_the_data(answe
 
 
 def test_of_errors_alike_the_most_probable_together_are_told():
-    laws = [("a", 0.35, 0.10), ("b", 0.25, 0.30), ("c", 0.4, 0.32)]
-    told, probability = pricing.most_probable(tuple(pricing.IfRight(*each) for each in laws))
+    laws = [("a", 0.35, 0.10, 0.1), ("b", 0.25, 0.30, 0.5), ("c", 0.4, 0.32, 1.0)]
+    told, probability, grazing = pricing.most_probable(tuple(pricing.IfRight(*each) for each in laws))
+    assert grazing == pytest.approx(np.sqrt((0.25 * 0.5**2 + 0.4 * 1.0**2) / 0.65))
     assert told == pytest.approx(np.sqrt((0.25 * 0.3**2 + 0.4 * 0.32**2) / 0.65)) and probability == pytest.approx(0.65)
 
 
@@ -56,9 +57,11 @@ def test_a_lobe_about_the_mirror_direction_that_follows_one_about_the_half_vecto
     price = pricing.off_plane_price(mirror, found.measurement)
     there, weights = pricing.outside_plane(found.measurement)
     apart = np.log(reading(mirror.recommended.fit.surface, there)) - np.log(blinn(there.geom, values))
-    error = np.sqrt(weights @ apart[:, 0] ** 2)
-    assert price is not None and error > 5 * price.in_plane
+    steep = pricing.toward_grazing(there.geom)
+    error, grazing = (np.sqrt(weights[here] @ apart[here, 0] ** 2 / weights[here].sum()) for here in (~steep, steep))
+    assert price is not None and error > 5 * price.in_plane and grazing > 2 * error
     assert abs(np.log(price.rms_ln / error)) < pricing.WITHIN
+    assert abs(np.log(price.grazing / grazing)) < pricing.WITHIN
 
 
 def test_nothing_is_said_of_data_that_leave_the_plane():
@@ -86,9 +89,8 @@ def test_laws_that_tie_and_part_outside_are_named_with_the_directions(answer):
     angles = np.concatenate([there.geom.theta_i_deg, there.geom.theta_r_deg, there.geom.phi_deg], axis=1)
     place = int(np.argmin(np.sum((angles - [theta_i, theta_r, phi]) ** 2, axis=1)))
     other, best = (np.log(reading(each.surface, there))[:, 0] for each in (answer[apart.name], answer.recommended))
-    assert ratio == pytest.approx(other[place] - best[place]) and abs(ratio) == pytest.approx(
-        np.abs(other - best).max()
-    )
+    parted = np.abs(other - best)[~pricing.toward_grazing(there.geom)]
+    assert ratio == pytest.approx(other[place] - best[place]) and abs(ratio) == pytest.approx(parted.max())
     text = " ".join(off_plane_text({"off_plane": price_block(price)}).split())
     assert f"{100 * np.expm1(apart.then):.2g} % off if that one is right" in text
     assert "lambertian+lafortune ties with it in the plane and parts from it outside, most at theta_i" in text
@@ -102,8 +104,38 @@ def test_document_text_and_page_say_the_same_percentage(answer):
     assert said in page.html(answer.document)
 
 
-def test_channels_that_share_no_direction_have_no_price():
-    """Found by the fuzz: there is no value that every law is compared with in all channels."""
-    data = synthetic.surface(GGX, synthetic.scan(step=5.0), TRUTH, channels=3)
+def test_channels_that_share_no_direction_have_a_price_all_the_same():
+    data = synthetic.surface(GGX, synthetic.scan(step=5.0), TRUTH, channels=3, noise=0.03)
     data.brdf[np.arange(data.brdf.size).reshape(data.brdf.shape) % 2 == 0] = np.nan
-    assert fit(data, ["lambertian+ggx"], timing=False, anyway=True).document["off_plane"] is None
+    price = fit(data, ["lambertian+ggx"], timing=False, anyway=True).document["off_plane"]
+    assert price["rms_ln"] == pytest.approx(0.03, rel=0.25)
+
+
+def test_a_channel_too_dark_beside_the_highlight_takes_nothing_from_the_others():
+    """A yellow vinyl, whose blue is seen in its highlight alone: 2e10 % was expected of it."""
+    tinted = {**TRUTH, "ggx.alpha": 0.02, "lambertian.albedo": np.array([0.8, 0.4, 1e-9])}
+    data = synthetic.surface(GGX, synthetic.scan(step=2.0), tinted, channels=3, noise=0.03)
+    data.brdf[:, 2][data.brdf[:, 2] < 1e-3] = np.nan
+    data.brdf[:] *= np.exp(0.2 * np.cos(400 * np.sqrt(data.geom.tan2_h)) * (data.geom.tan2_h < 0.01))
+    price = fit(data, ["lambertian+ggx", "lambertian+ward"], timing=False, anyway=True).document["off_plane"]
+    assert price["rms_ln"] < 0.1
+
+
+def test_numbers_to_spare_and_a_misfit_in_the_plane_do_not_make_all_the_rest_doubtful():
+    """Six of ten foretold were twice what was found on measured tables, bronze and cayman among them."""
+    data = synthetic.surface(GGX, synthetic.scan((20, 45, 65), step=8.0), TRUTH, noise=0.03, seed=2)
+    data.brdf[:] *= np.exp(0.4 * np.cos(np.radians(6 * (data.geom.theta_i_deg + data.geom.theta_r_deg))))
+    price = fit(data, ["ggx+coated:lambertian+flakes"], timing=False, anyway=True).document["off_plane"]
+    assert price["rms_ln"] < 1.25 * price["in_plane_rms_ln"]
+
+
+def test_toward_grazing_it_is_a_number_of_its_own(answer, price):
+    steep = answer.document["off_plane"]["toward_grazing"]
+    assert steep["beyond_deg"] == pricing.GRAZING_DEG and steep["rms_ln"] == price.grazing
+    said = f"more than 130 deg {steep['expected_percent']:.2g} % and up to 3 times that"
+    assert said in " ".join(off_plane_text(answer.document).split())
+    low = answer.measurement[answer.measurement.geom.theta_i_deg[:, 0] <= 60]
+    low = low[low.geom.theta_r_deg[:, 0] <= 60]
+    document = fit(low, ["lambertian+ggx"], timing=False, anyway=True).document
+    assert document["off_plane"]["toward_grazing"] is None
+    assert "more than 130 deg" not in off_plane_text(document)

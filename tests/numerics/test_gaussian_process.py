@@ -51,3 +51,13 @@ def test_others_that_stand_at_one_place_are_foretold_as_each_alone():
     once = weighed(Places.between(KNOWN, OTHERS, which), values, SLOPES).elsewhere(ONWARD[:5])
     assert once.mean == pytest.approx(alone.mean, rel=1e-9, abs=1e-12)
     assert once.variance == pytest.approx(alone.variance, rel=1e-9, abs=1e-12)
+
+
+def test_an_unknown_that_is_usually_small_leaves_less_in_doubt_elsewhere():
+    values = 0.5 * np.sin(3 * KNOWN[:, 0]) + 0.02 * np.random.default_rng(3).standard_normal(40)
+    far = Places.between(KNOWN, OTHERS + 10.0)
+    doubts = [
+        weighed(far, values, np.zeros((40, 0)), usual).elsewhere(np.zeros((9, 0))).variance.mean()
+        for usual in (0.05, 0.3, np.inf)
+    ]
+    assert doubts[0] < 0.5 * doubts[1] < 0.5 * doubts[2]

@@ -1,7 +1,7 @@
 """What data in the plane of incidence cost, and which term the law lacks, as blocks of a fit's document."""
 
 from ...fitting.missing_term import WORDS, MissingTerm
-from ...fitting.off_plane_price import Price
+from ...fitting.off_plane_price import GRAZING_DEG, Price
 from .plain import off_percent
 
 
@@ -14,8 +14,21 @@ def price_block(price: Price | None) -> dict | None:
         "rms_ln": price.rms_ln,
         "in_plane_rms_ln": price.in_plane,
         "probability": price.probability,
+        "toward_grazing": None
+        if price.grazing is None
+        else {
+            "beyond_deg": GRAZING_DEG,
+            "expected_percent": off_percent(price.grazing, digits=3),
+            "rms_ln": price.grazing,
+        },
         "if_right": [
-            {"candidate": each.name, "probability": each.probability, "rms_ln": each.rms_ln} for each in price.by_law
+            {
+                "candidate": each.name,
+                "probability": each.probability,
+                "rms_ln": each.rms_ln,
+                "grazing_rms_ln": each.grazing,
+            }
+            for each in price.by_law
         ],
         "apart": [
             {
