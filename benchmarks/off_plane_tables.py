@@ -37,7 +37,7 @@ UNSEEN = {
     "anodised black, nickel (UA LOFT)": "ua_loft/AnoBlackNiTEonSteel.bsdf",
 }
 WITHIN = (1.25, 1.6, 2.0)
-CHOICES = {"MISSED": (0.05, 0.1, 0.2), "MOVES": (0.1, 0.15, 0.3), "ABOUT_MIRROR": (0.1, 0.5)}
+CHOICES = {"MISSED": (0.025, 0.05, 0.1), "MOVES": (0.05, 0.1, 0.2), "ABOUT_MIRROR": (0.1, 0.5)}
 PLANE_DEG = 0.1
 MANY = 20  # incidences, from which a table is a grid of directions and not scans
 SCANNED, STEP_DEG = 25, 5.0  # directions of a scan, of a grid's how far apart

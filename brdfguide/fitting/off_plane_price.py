@@ -43,8 +43,8 @@ TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes w
 # of the kernel: asinh(tan tilt/TILT), angle from light to half vector [deg], θi + θr [deg], sin θi sin θr cos φ
 WIDTHS = (0.85, 25.0, 200.0, 0.5)
 GRAZING_DEG = 130.0  # of θi + θr, beyond which a direction is told apart
-MISSED = 0.1  # ln, how large what a law misses usually is
-MOVES = 0.15  # ln, rms over the directions outside: how far one parameter usually moves the surface from the fitted one
+MISSED = 0.05  # ln, how large what a law misses usually is
+MOVES = 0.1  # ln, rms over the directions outside: how far one parameter usually moves the surface from the fitted one
 DARKEST = 0.5  # of the least value in a channel that was too dark elsewhere: what is darker cannot be read
 NEAR = 4.0  # times the recommended law's error, up to which another may be right once what it misses is smooth
 MOST_LAWS = 12
@@ -297,10 +297,10 @@ class _Known:
 
 
 def _darkest(brdf: np.ndarray) -> np.ndarray:
-    """ln of the least that can be read, by channel; below every number where nothing was too dark."""
+    """ln of the least that can be read, by channel; below every number where nothing was too dark, or all."""
     read = brdf > 0
     least = np.min(np.where(read, brdf, np.inf), axis=0)
-    return np.where(read.all(axis=0), -np.inf, np.log(DARKEST * least))
+    return np.where(read.all(axis=0) | ~read.any(axis=0), -np.inf, np.log(DARKEST * least))
 
 
 def _apart(row: Row, difference: np.ndarray, then: float, weights: np.ndarray, there: Instrument) -> Apart:

@@ -225,7 +225,8 @@ def test_a_changed_digit_of_a_parameter_is_found(answer):
 
 
 @pytest.mark.parametrize(
-    "place", ["typed", "recommended_fit", "in_plane_rms_ln", "expected_percent", "rms_ln", "probability"]
+    "place",
+    ["typed", "recommended_fit", "in_plane_rms_ln", "expected_percent", "rms_ln", "probability", "toward_grazing"],
 )
 def test_so_is_one_of_what_is_told_twice_and_of_the_price_out_of_the_plane(answer, place):
     document = deepcopy(answer[1])
@@ -233,6 +234,7 @@ def test_so_is_one_of_what_is_told_twice_and_of_the_price_out_of_the_plane(answe
     target, key = {
         "typed": (typed, next(key for key, value in typed.items() if isinstance(value, float))),
         "recommended_fit": (document["recommended_fit"]["errors"], "cosine"),
+        "toward_grazing": (document["off_plane"]["toward_grazing"], "expected_percent"),
     }.get(place, (document["off_plane"], place))
     assert key in target
     target[key] = _one_digit_off(target[key])

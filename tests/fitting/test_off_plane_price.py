@@ -9,6 +9,7 @@ from brdfguide import models
 from brdfguide.face.functions import fit
 from brdfguide.fitting import off_plane_price as pricing
 from brdfguide.fitting.reading import reading
+from brdfguide.printable import off_words
 from brdfguide.report import page
 from brdfguide.report.documents.off_plane import price_block
 from brdfguide.report.text.off_plane import off_plane_text
@@ -92,7 +93,9 @@ def test_laws_that_tie_and_part_outside_are_named_with_the_directions(answer):
     parted = np.abs(other - best)[~pricing.toward_grazing(there.geom)]
     assert ratio == pytest.approx(other[place] - best[place]) and abs(ratio) == pytest.approx(parted.max())
     text = " ".join(off_plane_text({"off_plane": price_block(price)}).split())
-    assert f"{100 * np.expm1(apart.then):.2g} % off if that one is right" in text
+    (told,) = price_block(price)["apart"]
+    assert told["then_percent"] == pytest.approx(100 * np.expm1(apart.then), rel=5e-3)
+    assert f"{off_words(told['then_percent'])} off if that one is right" in text
     assert "lambertian+lafortune ties with it in the plane and parts from it outside, most at theta_i" in text
 
 
