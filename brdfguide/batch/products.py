@@ -1,5 +1,6 @@
 """What is drawn and written of an answer, each into a file whose name follows from the surface's."""
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -55,6 +56,7 @@ def path_for(path: Path | None, label: str) -> Path | None:
     if path is None or not any(part in str(path) for part in (STEM, PARENT)):
         return path
     place = Product("", str(path)).place(label, None)
+    _spare(place, _read(label))
     make_folder(place.parent)
     return place
 
@@ -86,7 +88,9 @@ def listed(words: str) -> list[Product]:
 
 
 def check_apart(products: tuple[Product, ...], labels: list[str]) -> None:
-    """Raises InputError where two surfaces, or two products, would have one file, before anything is computed."""
+    """Raises InputError where two surfaces, or two products, would have one file, or that of a measurement, before
+    anything is computed."""
+    read = set().union(*map(_read, labels)) if any(ANSWER not in each.pattern for each in products) else set()
     for product in products:
         if ANSWER in product.pattern:
             continue
@@ -97,9 +101,21 @@ def check_apart(products: tuple[Product, ...], labels: list[str]) -> None:
                 hint = "" if PARENT in product.pattern else "; {parent} stands for the folder's name"
                 raise InputError(f"{seen[place]} and {label} would both write {place}{hint}")
             seen[place] = label
+            _spare(place, read)
     patterns = [each.pattern for each in products]
     if twice := {each for each in patterns if patterns.count(each) > 1}:
         raise InputError(f"{sorted(twice)[0]} is named twice")
+
+
+def _read(label: str) -> set[str]:
+    """The surface's own file; of `steel.csv [paint=2]` steel.csv."""
+    return {os.path.realpath(label.partition(" [")[0]), os.path.realpath(label)}
+
+
+def _spare(place: Path, read: set[str]) -> None:
+    """Raises InputError where a file is among those that are read, and would be lost."""
+    if os.path.realpath(place) in read:
+        raise InputError(f"{place}: it is read as well, and would be lost; write into another file")
 
 
 def make(product: Product, path: Path, answer: Any, file: Path, fitted: dict, command: str) -> None:

@@ -1,6 +1,7 @@
 """Help that fits a screen: commands by purpose, options by group, two real examples at the end."""
 
 import inspect
+import os
 from math import isfinite
 
 from typer.core import TyperCommand, TyperGroup
@@ -16,6 +17,9 @@ GROUPS = {
     "Catalogues": ("models", "materials", "examples", "schema"),
     "Trust": ("verify", "check", "bench"),
 }
+
+
+WRITTEN = ("output", "plot", "report", "residuals", "export")  # options that name files to write
 
 
 class Group(TyperGroup):
@@ -35,19 +39,29 @@ class Group(TyperGroup):
 
 class Command(TyperCommand):
     """Options under the heading that each names, arguments first; a number is a number, neither infinite nor none, and
-    given once."""
+    given once; a file that is read is not written."""
+
+    def make_parser(self, ctx):
+        parser = super().make_parser(ctx)
+        parse = parser.parse_args
+
+        def parse_once(args):
+            options, rest, order = parse(args)
+            _refuse_twice(order)
+            return options, rest, order
+
+        parser.parse_args = parse_once  # type: ignore[method-assign]
+        return parser
 
     def parse_args(self, ctx, args):
-        words = list(args)
         rest = super().parse_args(ctx, args)
-        _, _, order = self.make_parser(ctx).parse_args(words)
-        twice = [each for place, each in enumerate(order) if each in order[:place] and _is_single(each)]
-        if twice:
-            raise InputError(f"{twice[0].opts[0]} is given twice, and only one could count")
-        for parameter in self.get_params(ctx):
+        parameters = self.get_params(ctx)
+        for parameter in parameters:
             value = ctx.params.get(parameter.name)
             if isinstance(value, float) and not isfinite(value):
                 raise InputError(f"{parameter.opts[0]} {value:g}: wanted a number")
+        if not ctx.params.get("force"):
+            _spare_what_is_read(ctx.params, parameters)
         return rest
 
     def format_options(self, ctx, formatter) -> None:
@@ -70,6 +84,33 @@ class Command(TyperCommand):
             with formatter.section("Examples"):
                 for line in self.epilog.removeprefix("Examples:").split(" | "):
                     formatter.write(f"  {line.strip()}\n")
+
+
+def _refuse_twice(order) -> None:
+    """Raises InputError for an option of one value that was typed more than once."""
+    twice = [each for place, each in enumerate(order) if each in order[:place] and _is_single(each)]
+    if twice:
+        raise InputError(f"{twice[0].opts[0]} is given twice, and only one could count")
+
+
+def _spare_what_is_read(given, parameters) -> None:
+    """Raises InputError where a file that is to be written is one that is read, and would be lost."""
+    written = [(each.opts[0], word) for each in parameters if each.name in WRITTEN for word in _files(each, given)]
+    if not written:
+        return
+    read = [word for each in parameters if each.name not in WRITTEN for word in _files(each, given)]
+    for option, path in written:
+        if any(os.path.samefile(path, each) for each in read):
+            raise InputError(f"{option} {path}: it is read as well, and would be lost; write into another file")
+
+
+def _files(parameter, given) -> list[str]:
+    """The files that are there among the words of an option or argument; of TARGET:FILE the file."""
+    value = given.get(parameter.name)
+    words = [str(each) for each in (value if isinstance(value, list | tuple) else [value])]
+    if parameter.name == "export":
+        words = [word.partition(":")[2] for word in words]
+    return [word for word in words if os.path.isfile(word)]
 
 
 def _is_single(parameter) -> bool:

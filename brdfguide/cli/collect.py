@@ -46,7 +46,9 @@ def collect(request: CollectRequest) -> None:
         with working(f"collecting {request.folder}", request.quiet):
             base, count, new = stack.enter_context(collected.collected(store, base_path))
         if base_path is None:
-            flat_files.write_table(collected.flat_rows(base), collected.FLAT, request.output)
+            rows = collected.flat_rows(base)
+            flat_files.check_replaced(rows, request.folder, request.output)
+            flat_files.write_table(rows, collected.FLAT, request.output)
         files = base.execute("SELECT count(*) FROM name JOIN fit USING (key)").fetchone()[0]
         failed = base.execute("SELECT count(*) FROM failure").fetchone()[0]
         missing = [] if request.fail_missing is None else from_missing(request.fail_missing, base)

@@ -12,6 +12,7 @@ import pytest
 
 from brdfguide.batch import collected, conditions, described_rows, searching, store
 from brdfguide.batch.run import run_tasks
+from brdfguide.cli import main
 from brdfguide.errors import InputError
 from brdfguide.models.looks import looks
 from brdfguide.models.surface import Surface
@@ -123,6 +124,28 @@ def test_folders_in_which_nothing_was_written_since_are_not_looked_at(tmp_path, 
     (tmp_path / "moved").rename(tmp_path / "d")
     shutil.rmtree(tmp_path / "d")
     assert collected.collect_into(other, base_path) == (1, 0)
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".jsonl", ".parquet"])
+def test_a_flat_table_of_other_answers_or_of_something_else_is_not_replaced(tmp_path, suffix):
+    if suffix == ".parquet":
+        pytest.importorskip("pyarrow")
+    folders = [store.store_at(tmp_path / name) for name in "de"]
+    for part, folder in enumerate(folders):
+        file = some(tmp_path, f"{part}.csv", part)
+        list(run_tasks([Task(str(file), file, WORK, folder)], folder))
+    table = tmp_path / f"all{suffix}"
+    table.touch()  # as `mktemp` leaves one
+
+    def status(folder) -> int:
+        with pytest.raises(SystemExit) as ended:
+            main(["collect", str(folder.folder), "-o", str(table)])
+        return ended.value.code
+
+    assert [status(folders[0]), status(folders[0]), status(folders[1])] == [0, 0, 2]
+    measured = b"theta_i,theta_r,brdf\n10,10,0.2\n"
+    table.write_bytes(measured)
+    assert (status(folders[0]), table.read_bytes()) == (2, measured)
 
 
 def test_the_row_of_an_answer_says_what_its_surface_is():

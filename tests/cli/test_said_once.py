@@ -70,3 +70,19 @@ def test_export_takes_a_surface_in_one_word_as_the_others_do(capsys, tmp_path):
     status, said = told(capsys, "export", "ggx.alpha=0.3", "--to", "glsl", "-o", one)
     assert status == 2
     assert "ggx.alpha=0.3 needs --model beside it" in said
+
+
+@pytest.mark.parametrize(
+    "words", [("--residuals", "{0}"), ("--export", "csv:{0}"), ("--residuals", "{{parent}}/{{stem}}.csv")]
+)
+@pytest.mark.parametrize("many", [1, 2])
+def test_what_is_read_is_not_written(capsys, tmp_path, monkeypatch, words, many):
+    monkeypatch.chdir(tmp_path)
+    files = [tmp_path / "d" / f"{place}.csv" for place in range(many)]
+    files[0].parent.mkdir()
+    for file in files:
+        file.write_text("theta_i,theta_r,brdf\n" + "".join(f"30,{angle},0.2\n" for angle in range(-70, 71, 10)))
+    before = files[0].read_bytes()
+    status, said = told(capsys, "fit", *files, "-m", "lambertian", *(word.format(files[0]) for word in words))
+    assert (status, files[0].read_bytes()) == (2, before)
+    assert "it is read as well, and would be lost" in said or "wanted {stem} in it" in said
