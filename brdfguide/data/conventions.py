@@ -177,6 +177,7 @@ def retro_distance_deg(geom: Geometry):
 
 def side_of(geom: Geometry, brdf) -> Side:
     """Judges the mirror side from the values alone; `geom` holds the directions as the file is read by default."""
+    brdf = np.where(_impossible(brdf), np.nan, brdf)
     if blocked := _blocked(geom, brdf):
         return blocked
     ahead, behind, angles, beyond, falls = _peaks(geom, brdf)

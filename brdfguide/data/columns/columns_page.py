@@ -4,6 +4,7 @@ from importlib import import_module
 
 from .. import conventions, formats
 from .inverse_units import INVERSE_UNITS
+from .languages import SIGNS, WORDS
 from .vocabulary import (
     ANGLE_UNITS,
     CONFIDENCE,
@@ -182,8 +183,18 @@ def _words() -> str:
         [
             _table("Words", ("sense", "words"), senses),
             _table("Abbreviations", ("written", "read as"), short),
+            _table("Other languages", ("language", "words"), _languages()) + "\n" + OF_LANGUAGES,
         ]
     )
+
+
+def _languages() -> list[tuple[str, str]]:
+    """Each language with its words and the English that they are read as."""
+    tables = (WORDS | SIGNS).items()
+    return [
+        (name, ", ".join(f"`{word}`" + (f" {english}" if english else "") for word, english in table.items()))
+        for name, table in tables
+    ]
 
 
 def _units() -> str:
@@ -205,6 +216,10 @@ def _units() -> str:
     return _table("Units and scales", ("unit", "is", "written"), [*angles, *lengths, *scales])
 
 
+OF_LANGUAGES = (
+    "Text that is no UTF-8 is read in the encoding in which its words are these (GB18030, Shift JIS, Windows 1251 and "
+    "1250,\nBig5, EUC-KR), else as Latin-1.\n"
+)
 UNDONE = {"%": "divided by 100", "dB": "10^(x/10)", "log10": "10^x", "ln": "e^x"}
 
 

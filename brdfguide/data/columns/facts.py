@@ -4,6 +4,7 @@ from functools import lru_cache
 
 from ...records import dataclass
 from .inverse_units import inverse_unit
+from .languages import PLAIN, PLAIN_ALONE, with_blanks, without_articles
 from .tokens import Token, tokens
 from .turning_sense import taken_sense
 from .vocabulary import (
@@ -17,8 +18,6 @@ from .vocabulary import (
     QUANTITY_OF,
     QUANTITY_WORDS,
     SCALE_OF,
-    SPELT,
-    SPELT_ALONE,
     STERADIAN,
     senses_of,
 )
@@ -73,16 +72,17 @@ def facts(name: str, colours: bool = True) -> tuple[Column, list[Token]]:
 
 
 def spelt_out(text: str) -> list[Token]:
-    """The tokens of a name or a line, with abbreviations as the words that they stand for."""
+    """The tokens of a name or a line, with abbreviations and words of other languages as the English that they stand
+    for."""
     return list(_spelt_out(text))
 
 
 @lru_cache(maxsize=1024)  # comments are asked about each thing in turn, and the next file mostly has the same
 def _spelt_out(text: str) -> tuple[Token, ...]:
-    found = tokens(text.strip().strip("\"'"), KNOWN)
+    found = without_articles(tokens(with_blanks(text.strip().strip("\"'")), KNOWN))
     words = [token for token in found if token.is_word]
     alone = len(words) == 1 or len(words) == 2 and words[1].text in ANGLE_UNIT_OF
-    table = SPELT | SPELT_ALONE if alone else SPELT
+    table = PLAIN_ALONE if alone else PLAIN
     return tuple(Token(word, token.depth) for token in found for word in table.get(token.text, token.text).split())
 
 

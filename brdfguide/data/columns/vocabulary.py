@@ -102,19 +102,6 @@ SPELT = {
     "ccbsdf": "cosine corrected bsdf",
     "ubrdf": "u brdf",
     "ubsdf": "u bsdf",
-    # the same in German, whose tables have the decimal comma
-    "einfallswinkel": "angle of incidence",
-    "einstrahlwinkel": "angle of incidence",
-    "ausfallswinkel": "angle of reflection",
-    "streuwinkel": "scatter angle",
-    "beobachtungswinkel": "viewing angle",
-    "detektorwinkel": "detector angle",
-    "wellenlänge": "wavelength",
-    "wellenlaenge": "wavelength",
-    "azimut": "azimuth",
-    "azimutwinkel": "azimuth angle",
-    "reflexionswinkel": "angle of reflection",
-    "unsicherheit": "uncertainty",
 }
 # a Greek letter, a cosine or a sine with a short mark behind it, written as one word: thetai, phir, thetah, mu0
 STEMS = ("theta", "phi", "alpha", "beta", "mu", "costheta", "sintheta")

@@ -13,6 +13,7 @@ from ...physics.colour import CHANNEL_UM
 from ...physics.geometry import Geometry, rows
 from ...records import dataclass
 from ..columns import prose
+from ..columns.languages import encoding_of
 from ..measurement import Measurement
 
 MARK = b"\xef\xbb\xbf"  # of UTF-8; in front of what is none it is no text either
@@ -53,11 +54,12 @@ class Source:
 
     @cached_property
     def text(self) -> str:
-        """The file as text: UTF-8 or UTF-16 with a byte order mark, else Latin-1; exponents with E.
+        """The file as text: UTF-8 or UTF-16 with a byte order mark, else the encoding in which heads in other languages
+        are words, else Latin-1; exponents with E.
 
         Raises InputError for binary.
         """
-        encodings = ["utf-8-sig", "latin-1"]
+        encodings: list[str | None] = ["utf-8-sig", None, "latin-1"]
         if self.data[:2] in (b"\xff\xfe", b"\xfe\xff"):
             encodings = ["utf-16"]
         elif b"\0" in self.data:
@@ -65,8 +67,9 @@ class Source:
                 "it is binary, and no reader knows it; wanted text with a header row, or a known table format"
             )
         for encoding in encodings:
+            plain = self.data.removeprefix(b"" if encoding in ("utf-8-sig", "utf-16") else MARK)
             try:
-                return with_e(self.data.removeprefix(MARK if encoding == "latin-1" else b"").decode(encoding))
+                return with_e(plain.decode(encoding or encoding_of(plain)))
             except UnicodeDecodeError:
                 continue
         raise self.error("its text is neither UTF-8 nor UTF-16")

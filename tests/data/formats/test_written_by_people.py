@@ -100,3 +100,44 @@ def test_a_description_is_no_data(tmp_path):
 def test_encodings_that_are_not_read_are_named(tmp_path, encoding):
     with pytest.raises(InputError, match="text in UTF-32, or in UTF-16 without its mark, which is not read; save it"):
         read(tmp_path, ("theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)).encode(encoding))
+
+
+# --- other languages --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("heads", "encoding"),
+    [
+        (("angle d'incidence (°)", "angle de réflexion (°)", "FDRB"), "latin-1"),
+        (("Angle d’éclairement [degrés]", "angle de diffusion [degrés]", "BRDF"), "utf-8"),
+        (("ángulo de incidencia (grados)", "ángulo de reflexión (grados)", "BRDF"), "utf-8"),
+        (("angolo di incidenza", "angolo di riflessione", "BRDF"), "ascii"),
+        (("ângulo de incidência", "ângulo de reflexão", "BRDF"), "cp1252"),
+        (("Einfallswinkel [°]", "Streuwinkel [°]", "BRDF"), "latin-1"),
+        (("invalshoek", "uitvalshoek", "BRDF"), "ascii"),
+        (("kąt padania", "kąt odbicia", "BRDF"), "cp1250"),
+        (("угол падения", "угол отражения", "ДФОС"), "cp1251"),
+        (("入射角(°)", "散射角(°)", "BRDF(1/sr)"), "gb18030"),
+        (("入射天顶角", "反射天顶角", "双向反射分布函数"), "utf-8"),
+        (("入射角[deg]", "受光角[deg]", "BRDF[1/sr]"), "shift_jis"),
+        (("입사각", "반사각", "BRDF"), "euc_kr"),
+    ],
+)
+def test_heads_in_other_languages_and_their_encodings(tmp_path, heads, encoding):
+    agrees(read(tmp_path, (";".join(heads) + "\n" + lines(THETA_I, THETA_R, PLANE, sep=";")).encode(encoding)))
+
+
+def test_azimuths_wavelengths_and_doubts_in_other_languages(tmp_path):
+    angles = [THETA_I, np.abs(THETA_R), np.where(THETA_R < 0, 0.0, 180.0)]
+    head = "入射角,出射角,相对方位角,波长(纳米),BRDF,不确定度"
+    with_all = read(tmp_path, head.replace("纳米", "nm") + "\n" + lines(*angles, 633 + 0 * PLANE, PLANE, 0.01 * PLANE))
+    agrees(with_all)
+    assert with_all.geom.wavelength == pytest.approx(0.633)
+    np.testing.assert_allclose(with_all.stderr, 0.01 * with_all.brdf, rtol=1e-6)
+    head = "# longueur d'onde : 633 nm\nangle d'incidence,angle de réflexion,azimut relatif,BRDF"
+    assert read(tmp_path, head.replace("relatif", "") + "\n" + lines(*angles, PLANE)).geom.wavelength == 0.633
+
+
+def test_words_that_are_in_no_language_here_stay_as_latin_1_has_them(tmp_path):
+    with pytest.raises(InputError, match="no column for theta_i"):
+        read(tmp_path, "vinkeln è,theta_r,brdf\n".encode("latin-1") + lines(THETA_I, THETA_R, PLANE).encode())
