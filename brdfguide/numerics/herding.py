@@ -44,12 +44,16 @@ class Groups:
         inner = self.between[np.ix_(picked, picked)].sum()
         return float(inner / size**2 - 2 * self.toward[picked].sum() / size + self.whole)
 
-    def with_each(self, picked) -> np.ndarray:
-        """(groups,): E of the union with one more, for each."""
+    def across(self, picked) -> np.ndarray:
+        """(groups,): `between` summed over some groups."""
+        return self.between[:, np.asarray(picked, int)].sum(axis=1)
+
+    def with_each(self, picked, across=None) -> np.ndarray:
+        """(groups,): E of the union with one more, for each; `across` where that sum is known."""
         picked = np.asarray(picked, int)
+        across = self.across(picked) if across is None else across
         size = self.sizes[picked].sum() + self.sizes
-        inner = self.between[np.ix_(picked, picked)].sum()
-        inner = inner + 2 * self.between[:, picked].sum(axis=1) + np.diag(self.between)
+        inner = across[picked].sum() + 2 * across + np.diag(self.between)
         return inner / size**2 - 2 * (self.toward[picked].sum() + self.toward) / size + self.whole
 
 
@@ -64,14 +68,17 @@ def representatives(groups: Groups, count: int, allowed, near, fixed=(), one_of=
     if one_of is not None:
         masks = [one_of, *masks[1:]]
     picked = _greedy(groups, masks, near, list(fixed))
+    across, crowd = groups.across([*fixed, *picked]), near[:, picked].sum(axis=1)
     for _ in range(MOST_SWEEPS):
         changed = False
-        for place in range(len(picked)):
-            rest = [*picked[:place], *picked[place + 1 :]]
-            error = np.where(_free(masks[place], near, rest), groups.with_each([*fixed, *rest]), np.inf)
+        for place, old in enumerate(picked):
+            rest = [*fixed, *picked[:place], *picked[place + 1 :]]
+            free = masks[place] & (crowd == near[:, old])
+            error = np.where(free, groups.with_each(rest, across - groups.between[:, old]), np.inf)
             best = int(np.argmin(error))
-            if error[best] < error[picked[place]] * (1 - 1e-9) - 1e-15:
+            if error[best] < error[old] * (1 - 1e-9) - 1e-15:
                 picked[place], changed = best, True
+                across, crowd = groups.across([*fixed, *picked]), near[:, picked].sum(axis=1)
         if not changed:
             break
     return _greedy(groups, [np.isin(np.arange(len(allowed)), picked)] * count, near, list(fixed))

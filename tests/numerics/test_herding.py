@@ -26,6 +26,8 @@ def test_the_distance_is_that_of_the_means_and_none_of_all_points():
     share[some] = 1 / 3
     assert groups.distance(some) == pytest.approx((share - weights) @ kernel @ (share - weights))
     assert groups.with_each(some)[70] == pytest.approx(groups.distance([*some, 70]))
+    across = groups.across([*some, 80]) - groups.between[:, 80]
+    np.testing.assert_allclose(groups.with_each(some, across), groups.with_each(some), rtol=1e-9)
 
 
 def test_it_spreads_them_as_the_measure_is():

@@ -59,7 +59,7 @@ SENSES = {
     "filler": (
         "of the a an by at for in is mean average avg ave measured measurement meas spectral absolute abs calibrated "
         "corrected data center centre central peak vacuum laser source light total combined standard deviation dev "
-        "channel ch band"
+        "channel ch band re"
     ),
 }
 

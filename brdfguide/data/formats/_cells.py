@@ -26,6 +26,8 @@ MISSING = {
     "#ref!",
     "#name?",
     "n.a.",
+    "<na>",
+    ".",
     "missing",
     "?",
     "...",

@@ -15,6 +15,7 @@ MOST_GROUPS = 50  # a column with more different values names no groups
 UNEQUAL = 0.15  # rms of ln over repeated directions beyond which they are not one surface's
 TOLD_APART = 0.05  # the same where a column tells them apart that does not merely count runs
 LEAST_REPEATS = 4
+LEAST_COPIES, COPIED = 8, 0.9  # rows that repeat others in every cell, and their share of those that repeat a direction
 MOST_MARKS = 10  # different values of a column that marks rows as good or bad
 LABELS = word_set(
     "sample samples specimen material coating paint colour color side face piece panel part tile pol polarisation "
@@ -55,6 +56,24 @@ def values_of_group(source: Source, table: Sheet, name: str) -> tuple[str, ...]:
     return tuple(found)
 
 
+def without_copies(table: Sheet, columns, angles) -> tuple[np.ndarray, list[Finding]]:
+    """Which rows to keep, (rows,), and the note on the others: those that repeat one above digit for digit in every
+    cell, where nearly all that repeat a direction do. No two readings are so; a file that was joined with itself is."""
+    waves = next((each.place for each in columns if each.role in ("wavelength", "wavenumber")), None)
+    texts = [np.unique(cells, return_inverse=True)[1] for cells in table.texts.values()]
+    whole = _hashed([*np.ascontiguousarray(table.values.T).view(np.uint64), *texts])
+    copies = len(whole) - len(np.unique(whole))
+    if copies < LEAST_COPIES:
+        return np.ones(len(whole), bool), []
+    directions = _same_direction(angles, np.zeros(len(whole)) if waves is None else table.values[:, waves])
+    if copies < COPIED * (len(whole) - len(np.unique(directions))):
+        return np.ones(len(whole), bool), []
+    kept = np.zeros(len(whole), bool)
+    kept[np.unique(whole, return_index=True)[1]] = True
+    text = f"{copies} of {len(whole)} rows repeat others digit for digit in every cell: they count once"
+    return kept, [Finding("rows-copied", text, "warning", numbers=(("rows", copies), ("of", len(whole))))]
+
+
 def told_apart(source: Source, table: Sheet, columns, angles, wavelength, values) -> list[Finding]:
     """A note where repeated directions have unequal values and no column says why.
 
@@ -92,14 +111,21 @@ def told_apart(source: Source, table: Sheet, columns, angles, wavelength, values
 
 
 def _same_direction(angles, wavelength) -> np.ndarray:
-    """A number for each row, the same for rows of one direction and wavelength to 0.001; a hash of 64 bits inside."""
-    key = np.zeros(len(wavelength), np.uint64)
+    """A number for each row, the same for rows of one direction and wavelength to 0.001."""
+    steps = []
     for column in (*angles, wavelength):
         sane = np.where(np.abs(column) < 1e12, column, 0.0)  # what is larger is refused later, or no number
-        steps = np.round(sane * 1000).astype(np.int64).astype(np.uint64)
-        key = (key ^ steps) * np.uint64(0x9E3779B97F4A7C15)  # the golden ratio's odd multiplier
+        steps.append(np.round(sane * 1000).astype(np.int64))
+    return np.unique(_hashed(steps), return_inverse=True)[1].reshape(-1)
+
+
+def _hashed(columns) -> np.ndarray:
+    """64 bits for each row of some columns of integers."""
+    key = np.zeros(len(columns[0]), np.uint64)
+    for column in columns:
+        key = (key ^ column.astype(np.uint64)) * np.uint64(0x9E3779B97F4A7C15)  # the golden ratio's odd multiplier
         key ^= key >> np.uint64(29)
-    return np.unique(key, return_inverse=True)[1].reshape(-1)
+    return key
 
 
 def as_channels(table: Sheet, place: int) -> list[str] | None:

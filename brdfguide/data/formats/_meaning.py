@@ -37,6 +37,10 @@ def measurement_of(
     given = used_columns(given, found)
     if not np.all(found.rows):
         table = table.rows(found.rows)
+    kept, copied = _groups.without_copies(table, given.columns, found.degrees)
+    if copied:
+        table, found = table.rows(kept), replace(found, degrees=found.degrees[:, kept])
+        notes += copied
     values = values_of(source, table, given, found.degrees, notes)
     given = values.left
     notes += _apart(source, table, given, found, values)

@@ -24,6 +24,7 @@ STYLES = (
     ("|", ","),
     (",", ","),  # cells in quotes
 )
+RULE = "|+-=: \t"  # of what the lines between the names and rows of Markdown and framed tables consist
 DIGITS = frozenset("0123456789")
 A_NUMBER = DIGITS | set("-+.")  # what one begins with
 LOOKED_AT = 40  # data lines that decide the style
@@ -73,8 +74,9 @@ def read_sheet(
         elif comment := _comment(stripped, content, opens_a_section):
             comments.append(comment)
             comment_lines.append(number)
-        elif stripped and stripped.strip(",;\t |") != "":
+        elif stripped.strip(",;\t |") and stripped.strip(RULE):
             content.append((number, text))
+    content = _without_frame(content)
     if not content:
         raise source.error(
             "there is no table in it, only comments and blank lines" if comments else "the file is empty"
@@ -112,6 +114,16 @@ def _comment(stripped: str, content, opens_a_section) -> str:
     if (stripped[:1] == ";" or stripped[:1].isalpha() and among_rows) and opens_a_section(bare):
         return bare
     return ""
+
+
+def _without_frame(content):
+    """Without the bars at both ends of the lines, where all that have bars have these."""
+    if not any("|" in text for _, text in content[:LOOKED_AT]):
+        return content
+    barred = [text.strip() for _, text in content if "|" in text]
+    if not all(len(text) > 2 and text[0] == text[-1] == "|" for text in barred):
+        return content
+    return [(number, text.strip()[1:-1] if "|" in text else text) for number, text in content]
 
 
 def _first_row(content) -> int | None:
@@ -246,6 +258,11 @@ def _is_row_of_units(text: str) -> bool:
     return mark is not None and all(_is_unit(cell) for cell in text.split(mark))
 
 
+def _is_words(content) -> bool:
+    """Whether lines hold no digit, such as `End of data` below the rows."""
+    return not any(DIGITS & set(text) for _, text in content)
+
+
 def _twice(names: list[str]) -> str:
     """The first name that stands twice."""
     seen: set[str] = set()
@@ -294,14 +311,18 @@ def rows_of(source: Source, content, names, delimiter, decimal, notes):
                 return values, lines, {}
         except ValueError:
             pass  # the slow way finds out where and why
-    rows, kept = [], []
-    for number, text in content:
+    rows: list[list[str]] = []
+    kept: list[int] = []
+    for place, (number, text) in enumerate(content):
         cells = cells_of(text, delimiter)
         if cells[:width] == names:
             notes.append(f"line {number}: the header again")
             continue
         if len(cells) > width and not any(cells[width:]):
             cells = cells[:width]
+        if len(cells) != width and rows and _is_words(content[place:]):
+            notes += [f"line {line}: '{words.strip()[:40]}'" for line, words in content[place:]]
+            break
         if len(cells) != width:
             raise source.error(f"found {len(cells)} cells, wanted {width} ({', '.join(names)[:80]})", number)
         rows.append(cells)

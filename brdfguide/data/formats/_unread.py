@@ -23,7 +23,8 @@ KINDS = (
     (rb"\s*##TITLE=", "a JCAMP-DX spectrum", "it holds no angles; export the goniometer's table as CSV"),
     (rb"\s*(?:<!DOCTYPE html|<html)", "a web page", "download the file that the page links to"),
     (rb"\s*(?:<\?xml|<!--).{0,2000}<materialx\b", "a MaterialX document", "it holds shaders, no measured values"),
-    (rb"\s*<\?xml|\s*<[A-Za-z]{3,}[ >]", "XML of a kind that is not read", AS_CSV),
+    (rb"\s*<\?xml|\s*<[A-Za-z]{3,}[ >]", "XML of another kind", AS_CSV),
+    (rb'\s*\[\s*(?:[\[{"\d]|$)|\s*\{\s*\}', "JSON of another kind", AS_CSV),
     (rb"version https://git-lfs", "the pointer to a file in Git LFS, not the file", "fetch it with `git lfs pull`"),
     (rb"\{\\rtf", "a document of a word processor", "save it as plain text"),
 )  # fmt: skip

@@ -17,6 +17,7 @@ from ..columns.languages import encoding_of
 from ..measurement import Measurement
 
 MARK = b"\xef\xbb\xbf"  # of UTF-8; in front of what is none it is no text either
+END_OF_FILE = "\x1a"  # as DOS ended texts
 OF_TABLES = ("columns", "unit", "select", "rotation_sense")  # options of reading that a table under names takes
 TEXT_LIMIT = 160 * 2**20  # bytes of text: a whole MERL table as CSV; a gonioreflectometer fills a hundredth of it
 MOST_DEG = 1e5  # no azimuth turns more often
@@ -69,7 +70,7 @@ class Source:
         for encoding in encodings:
             plain = self.data.removeprefix(b"" if encoding in ("utf-8-sig", "utf-16") else MARK)
             try:
-                return with_e(plain.decode(encoding or encoding_of(plain)))
+                return with_e(plain.decode(encoding or encoding_of(plain)).rstrip(END_OF_FILE))
             except UnicodeDecodeError:
                 continue
         raise self.error("its text is neither UTF-8 nor UTF-16")

@@ -17,6 +17,7 @@ from ...printable import short
 from ..measurement import Measurement
 from ._pivot import pivoted
 from ._sides import azimuths_on_their_side
+from ._unread import AS_CSV
 from .format import Format, Options, Source, check_zenith, degrees, measurement
 
 LARGEST_SR = 2.0  # a cone of 47 degrees: no receiver of a goniometer sees more
@@ -42,7 +43,7 @@ def read(source: Source, options: Options) -> Measurement:
     brdf: dict = stated if isinstance(stated, dict) else {}
     rows = brdf.get("lookupTable")
     if not isinstance(rows, list) or not rows:
-        raise source.error("no rows under brdf.lookupTable")
+        raise source.error(f"no rows under brdf.lookupTable, where OpenMATERIAL has them; of other JSON {AS_CSV}")
     table = np.array([_row(source, place, row) for place, row in enumerate(rows, 1)])
     whole = np.all(np.isfinite(table[:, :4]), axis=1)
     if not np.any(whole):

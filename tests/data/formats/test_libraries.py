@@ -133,7 +133,8 @@ UNREAD = {
     "IESNA:LM-63-2002\n": "an IES photometry of a lamp",
     "<!DOCTYPE html>\n<html><body>404</body></html>": "a web page, which is not read; download the file",
     '<?xml version="1.0"?>\n<materialx version="1.39">\n': "a MaterialX document",
-    '<?xml version="1.0"?>\n<root><a>1</a></root>\n': "XML of a kind that is not read",
+    '<?xml version="1.0"?>\n<root><a>1</a></root>\n': "XML of another kind",
+    '[{"theta_i": 10, "theta_r": -80, "brdf": 0.066}]\n': "JSON of another kind",
     "version https://git-lfs.github.com/spec/v1\noid sha256:1\n": "the pointer to a file in Git LFS",
 }
 

@@ -102,6 +102,45 @@ def test_encodings_that_are_not_read_are_named(tmp_path, encoding):
         read(tmp_path, ("theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)).encode(encoding))
 
 
+FRAMES = {
+    "Markdown": ("| theta_i | theta_r | brdf |\n|---------|:-------:|-----:|\n", "| {} |\n", ""),
+    "Markdown without edges": ("theta_i | theta_r | brdf\n--- | --- | ---\n", "{}\n", ""),
+    "Org mode": ("| theta_i | theta_r | brdf |\n|---------+---------+------|\n", "| {} |\n", ""),
+    "a grid": ("+----+----+----+\n| theta_i | theta_r | brdf |\n+====+====+====+\n", "| {} |\n+----+----+----+\n", ""),
+    "a frame": ("+----+----+----+\n| theta_i | theta_r | brdf |\n+----+----+----+\n", "| {} |\n", "+----+----+----+\n"),
+}
+
+
+@pytest.mark.parametrize("frame", FRAMES)
+def test_tables_in_frames(tmp_path, frame):
+    above, row, below = FRAMES[frame]
+    rows = "".join(row.format(line) for line in lines(THETA_I, THETA_R, PLANE, sep=" | ").splitlines())
+    found = read(tmp_path, "# Sample 12\n\nMeasured at 633 nm.\n\n" + above + rows + below)
+    agrees(found)
+    assert found.geom.wavelength == pytest.approx(0.633)
+
+
+def test_words_below_the_rows_are_skipped_and_named(tmp_path):
+    table = "theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)
+    found = read(tmp_path, table + "\nEnd of data\n\x1a")
+    agrees(found)
+    assert any("'End of data'" in each.text for each in found.findings if each.code == "lines-skipped")
+    for cut in ("mean,0.1\n", "50,75"):  # statistics, and a file that was not written to its end
+        with pytest.raises(InputError, match="found 2 cells, wanted 3"):
+            read(tmp_path, table + cut)
+
+
+def test_rows_that_repeat_others_digit_for_digit_count_once(tmp_path):
+    head, rows = "theta_i,theta_r,brdf,operator\n", lines(THETA_I, THETA_R, PLANE).replace("\n", ",Jane\n")
+    joined = read(tmp_path, head + rows + rows)
+    agrees(joined)
+    assert "rows-copied" in [each.code for each in joined.findings]
+    again = lines(THETA_I, THETA_R, PLANE * (1 + 0.001 * np.sin(np.arange(len(PLANE))))).replace("\n", ",Jane\n")
+    measured_twice = read(tmp_path, head + rows + again)
+    assert len(measured_twice.brdf) == 2 * len(PLANE)
+    assert "rows-copied" not in [each.code for each in measured_twice.findings]
+
+
 # --- other languages --------------------------------------------------------------------------------------
 
 
