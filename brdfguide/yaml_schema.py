@@ -36,6 +36,7 @@ class Field:
     high: float | None = None
     above: float | None = None  # an open lower bound
     choices: tuple[str, ...] = ()  # of a word; of number, numbers or a group: words that may stand in its place
+    meant: Mapping[str, str] = field(default_factory=dict)  # words that people use -> the choice to propose
     counts: tuple[int, ...] = ()  # how many numbers; empty: any
     fields: tuple["Field", ...] = ()  # of a group, and of each group in groups
     required: bool = False
@@ -268,7 +269,8 @@ class _Walk:
         found = _word(text, wanted.choices)
         if found is not None:
             return found
-        near = nearest_words(text.lower(), wanted.choices, 1, 0.5)
+        typed = _plain(text)
+        near = [wanted.meant[typed]] if typed in wanted.meant else nearest_words(typed, wanted.choices, 1, 0.5)
         hint = f"did you mean '{near[0]}'? " if near else ""
         keys = f", or lines of `key: value` with {', '.join(f.name for f in wanted.fields)}" if wanted.fields else ""
         return self.wrong(node, f"'{path}' is '{short(text)}'; {hint}it is one of: {', '.join(wanted.choices)}{keys}")
@@ -296,11 +298,11 @@ def _key(node) -> str:
 
 def _word(text: str, choices: tuple[str, ...]) -> str | None:
     """The choice that `text` names; case, hyphens, underscores and the American colour do not matter."""
+    return next((choice for choice in choices if _plain(choice) == _plain(text)), None)
 
-    def plain(word):
-        return re.sub(r"[\s_-]+", " ", word.lower()).replace("color", "colour").strip()
 
-    return next((choice for choice in choices if plain(choice) == plain(text)), None)
+def _plain(word: str) -> str:
+    return re.sub(r"[\s_-]+", " ", word.lower()).replace("color", "colour").strip()
 
 
 def _nearest(key: str, known, path: str) -> str:

@@ -6,6 +6,13 @@ from ..yaml_schema import Field
 KINDS = ("metal", "dielectric", "semiconductor")
 APPEARANCES = ("solid colour", "metallic flake", "black", "metal", "clear", "pearlescent", "fluorescent")
 FINISHES = ("mirror", "high gloss", "satin", "low gloss", "matt")  # smoothest first
+FINISHES_MEANT = {
+    **dict.fromkeys(("polished", "specular"), "mirror"),
+    **dict.fromkeys(("glossy", "gloss", "shiny", "smooth"), "high gloss"),
+    **dict.fromkeys(("semi gloss", "semigloss", "silk", "brushed"), "satin"),
+    **dict.fromkeys(("eggshell", "semi matt", "semi matte"), "low gloss"),
+    **dict.fromkeys(("matte", "flat", "dull", "rough", "diffuse"), "matt"),
+}
 PATCHES = ("white", "neutral 8", "neutral 6.5", "neutral 5", "neutral 3.5", "black")
 
 DOUBTS = (
@@ -25,7 +32,7 @@ OBSERVATIONS = (
     Field("kind", "word", choices=KINDS, meaning="what the surface is made of, if you know it"),
     Field("composition", "text", meaning="the substance by name, such as brass or acrylic"),
     Field("appearance", "word", choices=APPEARANCES, meaning="what the body looks like below the highlight"),
-    Field("finish", "word", choices=FINISHES, meaning="how sharp its reflections look"),
+    Field("finish", "word", choices=FINISHES, meant=FINISHES_MEANT, meaning="how sharp its reflections look"),
     Field(
         "highlight_colour",
         "word",

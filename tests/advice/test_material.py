@@ -239,3 +239,18 @@ def test_all_of_them_in_one_process_in_less_than_3_seconds():
 def test_a_consultation_is_the_same_twice():
     made = material.read_material(library.path("porcelain"))
     assert guidelines.consult(made) == guidelines.consult(made)
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("glossy", "high gloss"),
+        ("Shiny", "high gloss"),
+        ("matte", "matt"),
+        ("semi-gloss", "satin"),
+        ("eggshell", "low gloss"),
+    ],
+)
+def test_words_that_people_use_for_a_finish_propose_what_they_mean(typed, meant):
+    with pytest.raises(InputError, match=f"did you mean '{meant}'"):
+        material.parse_material(f"finish: {typed}\n", "x")

@@ -26,6 +26,7 @@ def evidence(material: Material) -> list[tuple[str, str]]:
     body = {
         "metal": "metal",
         "solid colour": "dielectric",
+        "black": "dielectric",  # the darkest metal is a medium grey
         "metallic flake": "dielectric",
         "clear": "dielectric",
         "pearlescent": "dielectric",

@@ -282,3 +282,9 @@ def test_an_index_with_one_n_and_three_k_is_judged_in_every_channel():
     one = parse_material("index: {n: [1.5], k: [0.0, 3.0, 3.0]}")
     assert interface.evidence(one) == []  # clear in red alone: no dielectric
     assert interface.evidence(parse_material("index: {n: [1.5], k: [3.0, 3.0, 3.0]}"))[0][0] == "metal"
+
+
+def test_black_is_no_metals_look():
+    assert guidelines.consult(parse_material("appearance: black")).material.kind == "dielectric"
+    said = spoken("composition: anodised aluminium\nappearance: black\nfinish: matt")
+    assert said["evidence_disagrees"].conflict
