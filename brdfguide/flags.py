@@ -119,6 +119,7 @@ READING = {
     ),
     "receiver-solid-angle": Flag("The detector's solid angle, as the file states it.", option="--aperture-deg"),
     "relative-scale": Flag("The level of the values is relative: they are not 1/sr.", WARNING, "--scale"),
+    "rows-beyond-count": Flag("More rows than the header counts were taken.", WARNING),
     "rows-copied": Flag("Rows that repeat others digit for digit in every cell count once.", WARNING),
     "rows-selected": Flag("Only the rows that were asked for were kept.", option="--select"),
     "rows-without-angles": Flag("Rows that lack an angle were dropped."),

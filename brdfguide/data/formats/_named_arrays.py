@@ -322,9 +322,12 @@ def _numbers(array, values) -> np.ndarray:
     """As the attributes say: missing where it is the mark for that, and unpacked."""
     values = np.asarray(values)
     numbers = values.astype(float)
-    for key in ("_FillValue", "missing_value"):
-        for mark in np.ravel(array.attrs.get(key, [])):
-            numbers[values == mark] = np.nan
+    marks = [array.attrs.get(key, []) for key in ("_FillValue", "missing_value")]
+    marks += [
+        getattr(array, "fill_value", None) or []
+    ]  # of zarr, which has it in place of _FillValue; 0 if none was set
+    for mark in np.concatenate([np.ravel(each) for each in marks]):
+        numbers[values == mark] = np.nan
     scale, offset = (_real(key, array.attrs.get(key, neutral)) for key, neutral in PACKED)
     return numbers if (scale, offset) == (1, 0) else numbers * scale + offset
 

@@ -35,7 +35,7 @@ def read(source: Source, options: Options) -> Measurement:
         word, rest = (re.split(r"[\s:=]+", text.strip(), maxsplit=1) + [""])[:2]
         if text.lstrip().startswith(COMMENTS):
             continue
-        if names is not None:
+        if names is not None and (content or not word[:1].isalpha()):  # keys may follow VARS, before the rows
             if text.strip():
                 content.append((number, text))
         elif word.upper() == "VARS":
@@ -54,6 +54,10 @@ def read(source: Source, options: Options) -> Measurement:
     promised = header.get("NUM_POINTS", "")
     if promised.isdecimal() and int(promised) > len(values):
         raise source.error(f"truncated: NUM_POINTS promises {promised} rows; found {len(values)}")
+    if promised.isdecimal() and int(promised) < len(values):
+        text = f"NUM_POINTS promises {promised} rows, and {len(values)} follow: all were taken"
+        numbers = (("promised", int(promised)), ("rows", len(values)))
+        notes.append(Finding("rows-beyond-count", text, "warning", numbers=numbers))
     unit, why = _unit(header, names, values)
     comments = [f"{key.lower()}: {value}{_wave_unit(key, value)}" for key, value in header.items()]
     result = _meaning.measurement_of(

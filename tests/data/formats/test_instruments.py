@@ -237,6 +237,8 @@ def test_astm_angles_are_radians_unless_the_header_says_degrees(tmp_path):
     np.testing.assert_allclose(weighted.brdf[:, 0] * np.cos(0.4), [0.1, 0.2])
     with pytest.raises(InputError, match="truncated: NUM_POINTS promises 9 rows; found 2"):
         read(tmp_path, containers.astm().replace("NUM_POINTS 2", "NUM_POINTS 9"))
+    more = read(tmp_path, containers.astm().replace("NUM_POINTS 2", "NUM_POINTS 1"))
+    assert len(more.brdf) == 2 and "rows-beyond-count" in [each.code for each in more.findings]
 
 
 ASTM = containers.astm("theta_i,phi_i,theta_s,phi_s,R,G,B")
@@ -249,6 +251,7 @@ SAME_AS_ASTM = {
     "blanks instead of commas": ASTM.replace(",", " "),
     "comments": "# made up\n" + ASTM.replace("\n0.5", "\n# rows\n\n0.5"),
     "Fortran's exponents": ASTM.replace(",0.1,", ",1.0D-01,"),
+    "keys after VARS": ASTM.replace("R,G,B\n", "R,G,B\nOPERATOR Jane 2\n"),
     "VARS that forget phi_s": ASTM.replace("theta_s,phi_s", "theta_s"),
     "names in words": ASTM.replace("R,G,B", "Red BRDF,Green BRDF,Blue BRDF"),
 }

@@ -163,6 +163,18 @@ def test_units_marks_and_packing_are_heeded(made):
     np.testing.assert_allclose(found.geom.theta_i_deg[0], content["theta_i_deg"][0], rtol=1e-9)
 
 
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_fill_value_of_zarr_is_a_mark_for_missing(tmp_path, version):
+    zarr = pytest.importorskip("zarr")
+    group = zarr.open_group(str(tmp_path / "wall.zarr"), mode="w", zarr_format=version)
+    content = columns(100)
+    content["G"][7] = -1.0
+    for name, each in content.items():
+        group.create_array(name, data=each, fill_value=-1.0 if name == "G" else 0.0)
+    lost = np.isnan(formats.read(tmp_path / "wall.zarr").brdf)
+    assert lost.sum() == 1 and lost[7].any()
+
+
 def test_words_name_groups(made):
     content = columns(100) | {"sample": np.array(["white"] * 60 + ["black"] * 40, dtype="S5")}
     if made.name == "zarr":
