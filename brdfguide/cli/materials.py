@@ -46,7 +46,7 @@ def _keys() -> tuple[dict, str]:
 def _all() -> tuple[dict, str]:
     """Every described material, a line each."""
     from ..advice import library, material
-    from ..report.text import table
+    from ..report.text.catalogue import materials_text
 
     rows = []
     for name in library.library_names():
@@ -54,8 +54,7 @@ def _all() -> tuple[dict, str]:
         of = made.given.get("kind") or made.composition or ""
         rows.append((name, of, made.given.get("appearance", ""), made.finish or "", made.given.get("about", "")))
     entries = [dict(zip(("name", "of", "appearance", "finish", "about"), row, strict=True)) for row in rows]
-    header = ("material", "kind or substance", "appearance", "finish", "about")
-    return {"schema": "brdfguide/materials/1", "materials": entries}, table.columns(header, rows)
+    return {"schema": "brdfguide/materials/1", "materials": entries}, materials_text(rows)
 
 
 def _one(name: str) -> tuple[dict, str]:

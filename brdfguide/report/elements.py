@@ -47,7 +47,7 @@ def html_findings(found: Iterable[dict]) -> str:
 
 def typed(parameters: dict) -> str:
     """Parameters as they are typed."""
-    return " ".join(f"<code>{escape(key)}={quantity(value)}</code>" for key, value in parameters.items())
+    return " ".join(f'<code class="whole">{escape(key)}={quantity(value)}</code>' for key, value in parameters.items())
 
 
 def html_number(value: float | None, digits: int = 3) -> str:

@@ -39,6 +39,7 @@ ul{margin:.3rem 0;padding-left:1.2rem}
 li{margin:.25rem 0}
 .warning::marker,.error::marker{color:var(--bad)}
 code{font-family:ui-monospace,"DejaVu Sans Mono",Menlo,Consolas,monospace;font-size:.88em}
+code.whole{display:inline-block;max-width:100%}
 figure{margin:1rem 0}
 figure svg{display:block;width:100%;height:auto;min-width:34rem}
 figure img{display:block;max-width:100%;height:auto}

@@ -8,8 +8,10 @@ import pytest
 
 from brdfguide import models
 from brdfguide.fitting.compare import compare
+from brdfguide.report import elements, sheet
 from brdfguide.report.documents.fit import fit_document
-from brdfguide.report.text import folding, ranking, table, terminal
+from brdfguide.report.figures import spheres
+from brdfguide.report.text import catalogue, folding, ranking, table, terminal
 from brdfguide.report.text.ranking import shows_text
 
 from .. import synthetic
@@ -84,6 +86,19 @@ def test_a_name_that_is_typed_again_is_not_broken_while_another_column_can_be(sc
     assert any(line.startswith("anodised-aluminium ") for line in lines) and max(map(len, lines)) <= 80
 
 
+def test_materials_on_a_narrow_screen_are_a_line_or_two_each(screen):
+    rows = [("anodised-aluminium", "aluminium", "metal", "satin", "aluminium with a clear oxide layer, bead blasted")]
+    rows.append(
+        ("retro-tape", "dielectric", "", "satin", "retro-reflective tape; outside what the guide's models can do")
+    )
+    screen(80)
+    lines = catalogue.materials_text(rows).split("\n")
+    assert len(lines) == 5 and max(map(len, lines)) <= 80
+    assert "bead blasted" in lines[1] and " ".join(lines[1:3]).split()[-3:] == ["(aluminium,", "metal,", "satin)"]
+    screen(None)
+    assert len(catalogue.materials_text(rows).split("\n")) == 3
+
+
 @pytest.mark.parametrize("columns", [80, 100, 120, 200])
 @pytest.mark.parametrize("full", [True, False], ids=["full", "short"])
 def test_an_answer_fits_the_screen_in_colour_and_says_what_the_plain_one_says(screen, document, columns, full):
@@ -136,3 +151,10 @@ def test_parameters_of_one_name_are_told_apart_for_the_eye():
     said = shows_text({"ggx.1.alpha": entry, "ggx.2.alpha": entry, "ggx.1.n": entry, "lambertian.albedo": {}})
     assert "ggx.1.alpha is known" in said and "ggx.2.alpha is known" in said
     assert "; n is known" in said and "albedo" not in said
+
+
+def test_captions_and_pages_do_not_break_the_names_of_models():
+    words = "he-torrance.sigma 0.03 um, he-torrance.slope 0.006, he-torrance.n 1.5"
+    assert all(line.count("he-torrance") == line.count("torrance") for line in spheres.caption(words, 30))
+    assert elements.typed({"he-torrance.n": 1.5}).startswith('<code class="whole">he-torrance.n=')
+    assert "code.whole{display:inline-block" in sheet.html_page("", "", "")

@@ -30,7 +30,8 @@ def recognises(head: bytes) -> bool:
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError where the rows do not follow VARS, or are fewer than NUM_POINTS promises."""
-    header, names, content = {}, None, []
+    header, names = {}, None
+    content: list[tuple[int, str]] = []
     for number, text in enumerate(source.lines, 1):
         word, rest = (re.split(r"[\s:=]+", text.strip(), maxsplit=1) + [""])[:2]
         if text.lstrip().startswith(COMMENTS):

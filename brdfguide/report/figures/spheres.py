@@ -82,13 +82,18 @@ def _differences(captions, radiances, clear: bool = False) -> list[Cell]:
     return made
 
 
+def caption(text: str, letters: int) -> list[str]:
+    """Lines that break at blanks, not within the names of models."""
+    return wrap(text, letters, break_on_hyphens=False)
+
+
 def _sheet(cells: list[Cell], columns: int, note: str) -> bytes:
     """A picture of exact pixels, as PNG. Pillow writes its words: matplotlib takes as long to load as all else."""
     size = cells[0].picture.shape[0]
     letters = int(size / LETTER)
     rows = 1 + max(each.row for each in cells)
-    head = MARGIN + LINE * (1 + max(len(wrap(each.small, letters)) for each in cells))
-    foot = wrap(note, int(letters * columns)) if note else []
+    head = MARGIN + LINE * (1 + max(len(caption(each.small, letters)) for each in cells))
+    foot = caption(note, int(letters * columns)) if note else []
     width = columns * size + (columns + 1) * MARGIN
     height = rows * (size + head) + LINE * len(foot) + MARGIN
     made = Image.new("RGB", (width, height), palette.PAPER)
@@ -103,7 +108,7 @@ def _sheet(cells: list[Cell], columns: int, note: str) -> bytes:
         pixels = (255 * np.clip(each.picture, 0, 1) + 0.5).astype(np.uint8)
         made.paste(Image.fromarray(pixels), (x, y + head))
         text(x, y + MARGIN - 6, [short(each.name, letters)], "DejaVuSans-Bold.ttf")
-        text(x, y + MARGIN - 6 + LINE, wrap(each.small, letters))
+        text(x, y + MARGIN - 6 + LINE, caption(each.small, letters))
     text(MARGIN, height - MARGIN - LINE * len(foot) + 6, foot)
     out = BytesIO()
     made.save(out, "PNG", optimize=False)

@@ -86,7 +86,11 @@ def origin(fig, text: str) -> None:
     """Lines under the figure, none of them a formula: where its data come from."""
     letters = int(fig.get_figwidth() * 72 / 3.6)
     fig.supxlabel(
-        "\n".join(line for each in text.split("\n") for line in wrap(label(each, MOST_OF_A_LINE), letters)),
+        "\n".join(
+            line
+            for each in text.split("\n")
+            for line in wrap(label(each, MOST_OF_A_LINE), letters, break_on_hyphens=False)
+        ),
         fontsize=6.5,
         x=0.995,
         ha="right",

@@ -1,12 +1,23 @@
 """What there is, in words."""
 
-from .folding import folded
+from .folding import folded, screen_width
 from .table import columns
+
+LEAST_FOR_ALL = 120  # columns of a screen below which what a material is stands in one
 
 
 def models_text(document: dict) -> str:
     """Every law, a line each."""
     return columns(("model", "what for"), [(each["name"], each["summary"]) for each in document["models"]])
+
+
+def materials_text(rows: list[tuple[str, str, str, str, str]]) -> str:
+    """Name, kind or substance, appearance, finish and what it is of every material; on a narrow screen what it is with
+    the other three behind."""
+    if (screen_width() or LEAST_FOR_ALL) >= LEAST_FOR_ALL:
+        return columns(("material", "kind or substance", "appearance", "finish", "about"), rows)
+    told = [(name, f"{about} ({', '.join(filter(None, more))})") for name, *more, about in rows]
+    return columns(("material", "about (kind or substance, appearance, finish)"), told)
 
 
 def model_text(entry: dict) -> str:
