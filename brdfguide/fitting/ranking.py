@@ -29,6 +29,7 @@ from .residuals import NO_ERROR, rms
 REPEATS = 7  # of a timing, the least of which counts
 TIMED_SAMPLES = 2048  # directions of a timing, repeated where there are fewer: a long batch that fits the cache
 IN_COMMON = 2.0  # times the scatter between neighbours, from which a stated error is one that they share (ours)
+LEAST_NOISE = 1e-4  # of values, below which it is told as less than this
 SAME = 1e-5  # times the best error: alike to the digits that order them
 
 
@@ -271,10 +272,9 @@ def _overall(rows: list[Row], winners: dict[str, str], metric: str, noise: float
     off = above or any(each.effect is Effect.OF_MISFIT for each in rows[0].warnings)
     found = [_by_scale(rows, winners, metric)] if off else []
     if above:
-        text = (
-            f"even the best error, {rows[0].rms_ln:.2g}, is {rows[0].rms_ln / noise:.0f} times the noise of a single "
-            f"value, {noise:.2g}"
-        )
+        times = f"{rows[0].rms_ln / noise:.0f} times the noise of a single value, {noise:.2g}"
+        far = times if noise >= LEAST_NOISE else f"far above the noise of a single value, less than {LEAST_NOISE:g}"
+        text = f"even the best error, {rows[0].rms_ln:.2g}, is {far}"
         found.append(Finding("above-noise", text, "warning", "no candidate describes this surface fully"))
     return tuple(each for each in found if each)
 

@@ -172,6 +172,9 @@ def test_an_error_far_above_the_noise_is_said():
     rows = ranking.rank([fit.fit(models.get("lambertian+phong"), data)], data)
     assert [each.code for each in rows.warnings] == ["above-noise"]
     assert not ranking.rank([fit.fit(GGX, data)], data).warnings
+    exact = plastic(synthetic.scan(step=2.0), noise=0.0, seed=9)
+    (said,) = ranking.rank([fit.fit(models.get("lambertian+phong"), exact)], exact).warnings
+    assert "far above the noise of a single value, less than 0.0001" in said.text
 
 
 def test_a_winner_that_depends_on_the_scale_is_said():

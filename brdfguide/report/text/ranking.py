@@ -139,7 +139,8 @@ def noise_line(document: dict) -> str:
     noise, values = document["noise"], document["data"]["values"]
     if noise["relative"] is None:
         return ""
-    text = f"\nsingle values scatter by {off_words(100 * noise['relative'])}"
+    share = off_words(100 * noise["relative"]) if noise["relative"] > 1e-4 else "less than 0.01 %"
+    text = f"\nsingle values scatter by {share}"
     if any(noise.get("absolute_per_sr") or ()):
         text += f", and by {span_text(noise['absolute_per_sr'])}/sr where they are dim"
     if noise.get("told_from_per_sr"):
