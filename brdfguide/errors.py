@@ -89,9 +89,12 @@ def choices(kind: str, found: str, known) -> InputError:
 
 
 def no_such_file(path, name: str) -> InputError:
-    """The error for a file that is not there, with the nearest names in the same folder."""
+    """The error for a file that is not there, with the nearest names in the same folder; for a link to nothing what it
+    points to."""
     from pathlib import Path
 
+    if Path(path).is_symlink():
+        return InputError(f"{name}: it is a link to '{Path(path).readlink()}', and there is no such file")
     try:
         beside = [each.name for _, each in zip(range(MOST_NAMES), Path(path).parent.iterdir(), strict=False)]
     except (OSError, ValueError):

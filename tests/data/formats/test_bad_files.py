@@ -136,6 +136,9 @@ def test_one_clear_sentence_for_what_is_no_file(tmp_path):
     (tmp_path / "steel.csv").write_text(plain())
     with pytest.raises(InputError, match=r"there is no such file; did you mean steel.csv\?"):
         formats.read(tmp_path / "stell.csv")
+    (tmp_path / "link.csv").symlink_to("gone.csv")
+    with pytest.raises(InputError, match=r"it is a link to 'gone.csv', and there is no such file$"):
+        formats.read(tmp_path / "link.csv")
 
 
 def test_two_readers_that_claim_one_file_are_both_named(tmp_path):
