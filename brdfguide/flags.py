@@ -34,9 +34,7 @@ class Effect(Enum):
     DENIES = "as a warning it ends `check` with status 1"
     OF_MISFIT = "a misfit of the model, unless the instrument explains it"
     EXTRAPOLATED = "a fit leaves out what lies beyond 80 degrees, unless --theta-max says another angle"
-    OF_REPEATS = (
-        "no answer is trusted where noise does not explain it, unless --columns ignores what may tell them apart"
-    )
+    OF_REPEATS = "no answer is trusted where noise does not explain it, unless --columns ignores what tells them apart"
     PHOTOGRAPHED = "the page shows the pictures, and --next names a phase"
     OF_LOOKS = "it is found anew whenever more is known of the ranking"
 

@@ -66,6 +66,15 @@ def measurement_of(
     )
     if options.wavelength_nm is not None:
         result = result.noting(*overruled(prose.wavelength_in(table.comments), options.wavelength_nm))
+    result = _scaled(result, table, given, options)
+    side = any(comment.replace(" ", "").startswith("mirror-side:phi=180") for comment in table.comments)
+    # before the side is judged: a cosine would hide the brighter one
+    result = with_stated_quantity(source, result, given, table, options)
+    return on_its_side(result, found.azimuths, options, side)
+
+
+def _scaled(result: Measurement, table: Sheet, given: Assigned, options: Options) -> Measurement:
+    """Times the factor that comments state, unless --scale or a column's name says it."""
     factor = prose.scale_in(table.comments)
     if factor in {column.factor for column in given.all("value")}:
         factor = None  # the same unit, said twice
@@ -75,11 +84,8 @@ def measurement_of(
         text = f"the comments state a scale of {factor:g}: values multiplied by it"
         stderr = None if result.stderr is None else result.stderr * factor
         result = replace(result, brdf=result.brdf * factor, stderr=stderr)
-        result = result.noting(Finding("scale-stated", text, option="--scale"))
-    side = any(comment.replace(" ", "").startswith("mirror-side:phi=180") for comment in table.comments)
-    # before the side is judged: a cosine would hide the brighter one
-    result = with_stated_quantity(source, result, given, table, options)
-    return on_its_side(result, found.azimuths, options, side)
+        return result.noting(Finding("scale-stated", text, option="--scale"))
+    return result
 
 
 def _apart(source: Source, table: Sheet, given: Assigned, found: RowDirections, values: Values) -> list[Finding]:
