@@ -266,3 +266,14 @@ def test_what_follows_from_a_table_is_held_and_the_rest_is_free():
     assert law.held == {"student-t.g"}
     wave = live(coloured(Surface.named("lambertian+he-torrance", {}), "x"))
     assert wave.held == frozenset() and len(wave.numbers) == 2
+
+
+def test_an_axis_over_a_decade_or_less_has_numbers_between():
+    script = (ROOT / "brdfguide" / "report" / "explorer" / "script.js").read_text()
+    parts = [
+        next(line for line in script.splitlines() if line.startswith(f"const {name} =")) for name in ("short", "power")
+    ]
+    parts.append(script[script.index("const marks") : script.index("const colours")])
+    found = in_node("\n".join(parts) + "console.log(JSON.stringify([marks(-0.9, 0.75), marks(-4, 1)]));")
+    assert [label for _, label in found[0]] == ["0.2", "0.5", "1", "2", "5"]
+    assert [place for place, _ in found[1]] == [-4, -3, -2, -1, 0, 1]

@@ -257,6 +257,10 @@ function follow(m, moved) {
 
 // ---- plots
 const power = d => '10' + String(d).replace('-', '\u207b').replace(/\d/g, x => '⁰¹²³⁴⁵⁶⁷⁸⁹'[x]);
+// decades of an axis, with 2 and 5 between them where there are few
+const marks = (low, high) => { const few = high - low < 2.5, found = [];
+  for (let d = Math.floor(low); d <= high; d++) for (const m of few ? [1, 2, 5] : [1]) { const y = d + Math.log10(m); if (y >= low && y <= high) found.push([y, few ? short(m * 10 ** d, 1) : power(d)]); }
+  return found; };
 const colours = () => { const s = getComputedStyle(root); return ['--a', '--b', '--ink', '--rule'].map(n => s.getPropertyValue(n).trim()); };
 function plot() {
   const [A, B, ink, rule] = colours(), box = $('cuts'), scale = devicePixelRatio || 1, w = box.clientWidth || 640, h = 330, c = box.getContext('2d');
@@ -272,8 +276,8 @@ function plot() {
   high += .3; low = Math.max(low - .3, high - 6);
   const X = (n, t) => gap + n * each + 8 + (t + 90) / 180 * (each - 14), Y = y => top + height * (high - y) / (high - low);
   c.strokeStyle = rule; c.fillStyle = ink; c.lineWidth = 1;
-  for (let d = Math.ceil(low); d <= high; d++) { c.textAlign = 'right'; c.fillText(power(d), gap, Y(d) + 4);
-    for (let n = 0; n < count; n++) { c.beginPath(); c.moveTo(X(n, -90), Y(d)); c.lineTo(X(n, 90), Y(d)); c.stroke(); } }
+  for (const [y, label] of marks(low, high)) { c.textAlign = 'right'; c.fillText(label, gap, Y(y) + 4);
+    for (let n = 0; n < count; n++) { c.beginPath(); c.moveTo(X(n, -90), Y(y)); c.lineTo(X(n, 90), Y(y)); c.stroke(); } }
   cuts.forEach((cut, n) => { c.textAlign = 'left'; c.fillText('\u03b8\u1d62 = ' + short(cut.theta_i, 3) + '°', X(n, -90), 15);
     c.strokeStyle = ink; c.strokeRect(X(n, -90), top, each - 14, height); if (strip) c.strokeRect(X(n, -90), top + height + 8, each - 14, strip - 8);
     c.textAlign = 'center'; for (const t of [-60, 0, 60]) c.fillText(t, X(n, t), h - 24); c.strokeStyle = rule; c.beginPath(); c.moveTo(X(n, cut.theta_i), top); c.lineTo(X(n, cut.theta_i), h - 40); c.stroke();
