@@ -15,7 +15,10 @@ MOST_GROUPS = 50  # a column with more different values names no groups
 UNEQUAL = 0.15  # rms of ln over repeated directions beyond which they are not one surface's
 TOLD_APART = 0.05  # the same where a column tells them apart that does not merely count runs
 LEAST_REPEATS = 4
-LEAST_COPIES, COPIED = 8, 0.9  # rows that repeat others in every cell, and their share of those that repeat a direction
+LEAST_COPIES, COPIED = (
+    8,
+    0.9,
+)  # rows that others repeat in every cell, and the share of these in what repeats a direction
 AT_THE_NORMAL_DEG = 0.05  # where any azimuth is the same direction
 MOST_MARKS = 10  # different values of a column that marks rows as good or bad
 LABELS = word_set(
@@ -68,8 +71,9 @@ def without_copies(table: Sheet, columns, angles) -> tuple[np.ndarray, list[Find
         return np.ones(len(whole), bool), []
     oblique = np.min(np.abs([angles[0], angles[2]]), axis=0) > AT_THE_NORMAL_DEG
     directions = _same_direction(angles, np.zeros(len(whole)) if waves is None else table.values[:, waves])
-    copied, repeated = (np.count_nonzero(oblique) - len(np.unique(each[oblique])) for each in (whole, directions))
-    if copied < max(LEAST_COPIES, COPIED * repeated):
+    counts = np.unique(whole[oblique], return_counts=True)[1]
+    repeated = np.count_nonzero(oblique) - len(np.unique(directions[oblique]))
+    if np.count_nonzero(counts > 1) < LEAST_COPIES or np.sum(counts - 1) < COPIED * repeated:
         return np.ones(len(whole), bool), []
     kept = np.zeros(len(whole), bool)
     kept[np.unique(whole, return_index=True)[1]] = True
