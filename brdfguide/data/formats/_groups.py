@@ -15,10 +15,8 @@ MOST_GROUPS = 50  # a column with more different values names no groups
 UNEQUAL = 0.15  # rms of ln over repeated directions beyond which they are not one surface's
 TOLD_APART = 0.05  # the same where a column tells them apart that does not merely count runs
 LEAST_REPEATS = 4
-LEAST_COPIES, COPIED = (
-    8,
-    0.9,
-)  # rows that others repeat in every cell, and the share of these in what repeats a direction
+LEAST_COPIES = 8  # rows that others repeat in every cell
+COPIED = 0.9  # share of these in what repeats a direction
 AT_THE_NORMAL_DEG = 0.05  # where any azimuth is the same direction
 MOST_MARKS = 10  # different values of a column that marks rows as good or bad
 LABELS = word_set(
