@@ -185,21 +185,31 @@ def side_of(geom: Geometry, brdf) -> Side:
         return Side("untold", "no incidence is far enough from the normal to tell the mirror side", False)
     both = np.isfinite(ahead) & np.isfinite(behind)
     if not np.any(both):
-        if np.any(np.isfinite(ahead)):
-            return Side("as_read", "only the mirror side was measured", True)
-        oblique = beyond[angles >= OBLIQUE_DEG]
-        if len(oblique) and np.median(oblique) < -NO_LOBE_DEG:
-            return Side(
-                "untold",
-                "only the other side was measured, that of the light, and nothing there is brightest where a mirror "
-                "would send it",
-                False,
-            )
+        return _of_one_side(np.any(np.isfinite(ahead)), angles, beyond)
+    return _of_two_sides(ahead, behind, falls)
+
+
+def _of_one_side(is_ahead: bool, angles: np.ndarray, beyond: np.ndarray) -> Side:
+    if is_ahead:
+        return Side("as_read", "only the mirror side was measured", True)
+    oblique = beyond[angles >= OBLIQUE_DEG]
+    if len(oblique) and np.median(oblique) < -NO_LOBE_DEG:
         return Side(
-            "turned",
-            "only one side was measured, and it is brightest where a mirror would send the light",
-            bool(np.all(beyond > -5)),
+            "untold",
+            "only the other side was measured, that of the light, and nothing there is brightest where a mirror would "
+            "send it",
+            False,
         )
+    return Side(
+        "turned",
+        "only one side was measured, and it is brightest where a mirror would send the light",
+        bool(np.all(beyond > -5)),
+    )
+
+
+def _of_two_sides(ahead: np.ndarray, behind: np.ndarray, falls: np.ndarray) -> Side:
+    """By ln of the brightest values on each side, at each incidence, and how they fall off about the mirror's."""
+    both = np.isfinite(ahead) & np.isfinite(behind)
     contrast = ahead[both] - behind[both]
     middle, largest = float(np.median(contrast)), float(np.clip(contrast[np.argmax(np.abs(contrast))], -300, 300))
     brighter = ahead if middle > 0 else behind

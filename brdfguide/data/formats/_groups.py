@@ -58,7 +58,7 @@ def values_of_group(source: Source, table: Sheet, name: str) -> tuple[str, ...]:
     return tuple(found)
 
 
-def without_copies(table: Sheet, columns, angles) -> tuple[np.ndarray, list[Finding]]:
+def rows_once(table: Sheet, columns, angles) -> tuple[np.ndarray, list[Finding]]:
     """Which rows to keep, (rows,), and the note on the others: those that repeat one above digit for digit in every
     cell, where nearly all that repeat a direction do. No two readings are so; a file that was joined with itself is."""
     waves = next((each.place for each in columns if each.role in ("wavelength", "wavenumber")), None)

@@ -37,7 +37,7 @@ def measurement_of(
     given = used_columns(given, found)
     if not np.all(found.rows):
         table = table.rows(found.rows)
-    kept, copied = _groups.without_copies(table, given.columns, found.degrees)
+    kept, copied = _groups.rows_once(table, given.columns, found.degrees)
     if copied:
         table, found = table.rows(kept), replace(found, degrees=found.degrees[:, kept])
         notes += copied
