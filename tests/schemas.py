@@ -120,7 +120,18 @@ NULLABLE = {  # null where the data do not say it, which the commands above all 
     *("floor", "unlike", "not_reciprocal", "factored", "by_form", "beyond_form", "growth", "r_mirror", "r_max"),
     *("r_mirror_data", "r_max_data", "gloss_gu", "held_out_rms_ln", "seen", "stderr", "known_to", "shows_from"),
     *("measured_rms_ln", "measured_off_percent", "key", "energy", "reciprocity", "off_plane", "missing"),
-    *("noise_relative", "with_it", "held_out_fits", "instrument", "at_mirror", "greatest", "high", "needs", "relative"),
+    *(
+        "noise_relative",
+        "with_it",
+        "held_out_fits",
+        "held_out_on",
+        "instrument",
+        "at_mirror",
+        "greatest",
+        "high",
+        "needs",
+        "relative",
+    ),
 }
 OPTIONAL = {  # there or not, as was asked
     *("time_per_sample_ns", "ns_per_sample", "fit_time_s", "on_front", "standard_error_left", "differ_by_noise"),
@@ -151,8 +162,11 @@ MEANINGS = {
     "rms_ln": "rms of ln(model/data)",
     "off_percent": "the same as a percentage: how far off it typically is",
     "held_out_rms_ln": "the same at incidence angles that the fit did not see",
-    "held_out_fits": "what was found without each group of incidences, from which these errors follow; null where the "
-    "sample was turned, and where not all directions and channels were looked at",
+    "held_out_fits": "what was found without each group of incidences, or of turns of the sample, from which these "
+    "errors follow; an array has a value for each channel that was looked at",
+    "turns_deg": "azimuths of the light that were left out; none where incidences were",
+    "held_out_on": "the directions, by their numbers in the order of the file as it is read, the first 0, and the "
+    "channels that fits without a group looked at; null: all that have a value",
     "instrument": "what the instrument did, fitted beside the model: errors are without it; null where nothing was",
     "zero_deg": "the true reflected angle is the reported one plus this [deg]",
     "ln_gains": "ln of how much too bright the values of each scan were, in the order of theta_i_deg",
@@ -214,13 +228,13 @@ def _polished() -> str:
 
 
 def _grained() -> str:
-    """Scans of a brushed metal under four turns."""
+    """Scans of a brushed metal under four turns, of more directions than fits without a group look at."""
     import numpy as np
 
     from brdfguide.models import term
     from brdfguide.physics.geometry import Geometry, rows
 
-    turn, theta_i, theta_r = (each.ravel() for each in np.meshgrid([0, 45, 90, 135], [20, 50], np.arange(-75, 80, 5)))
+    turn, theta_i, theta_r = (each.ravel() for each in np.meshgrid([0, 45, 90, 135], [20, 50], np.arange(-75, 80, 2)))
     geom = rows(Geometry.from_degrees(theta_i, turn, np.abs(theta_r), turn + np.where(theta_r < 0, 0, 180)))
     brdf = term("ggx-aniso")(geom, alpha_x=0.3, alpha_y=0.1, axis=0.5, n=1.0, k=4.0, scale=1.0)[:, 0]
     cells = zip(turn, theta_i, theta_r, brdf, strict=True)

@@ -54,10 +54,19 @@ class PrintedHighest:
 
 @dataclass(frozen=True)
 class PrintedFold:
-    """The numbers that were found without the incidences between two."""
+    """The numbers that were found without the incidences between two, or without some turns of the sample."""
 
     theta_i_deg: tuple[float, float]
     values: dict[str, float | tuple[float, ...]]
+    turns_deg: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class PrintedLookedAt:
+    """The directions and channels that fits without a group looked at."""
+
+    rows: tuple[int, ...]
+    channels: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -277,6 +286,7 @@ class PrintedFit:
     scales: dict[str, PrintedScale]
     seen_order: tuple[PrintedEntry, ...]
     seen_weights: str
+    held_out_on: PrintedLookedAt | None = None
     floor: PrintedFloor | None = None
     stray_light: tuple[PrintedStrayLight, ...] = ()
     warnings: tuple[PrintedFlag, ...] = ()

@@ -4,11 +4,14 @@ The orders and shares that the sums are taken in (incidences, blocks of neighbou
 anew from the angles [deg], as the pages on errors say it.
 """
 
+from bisect import bisect_left
 from collections import Counter, defaultdict
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 from statistics import median
 
-from mpmath import cbrt, cos, exp, fsum, log, mpf, pi, radians, sin, sqrt
+from mpmath import cbrt, cos, exp, fsum, log, mpf, radians, sqrt
 
 from ..records import dataclass
 from .exact_surface import ExactReading, ExactSurface, RoundingDecides
@@ -16,7 +19,6 @@ from .exact_surface import ExactReading, ExactSurface, RoundingDecides
 SMALLEST = mpf("1e-300")  # a law that gives less is taken here
 LARGEST = 1e100  # [1/sr]; beyond, and below its inverse, is no measurement
 PER_MEDIAN = mpf("1.4826")  # standard deviation of a normal distribution over its median size
-LIMIT_DEG = 80  # beyond, S does not look
 APART_DEG = 0.25  # between two incidences of scans
 HELD_DEG = 1.0  # how far an incidence wanders that was held
 MOST_SCANS = 64  # with more incidences the order alone cuts blocks
@@ -39,7 +41,7 @@ class Readings:
     stated: tuple[tuple[float, ...], ...] | None = None  # standard errors [1/sr]
     by_error: bool = False  # which values are weighed by
     robust: bool = False  # values far off counted little
-    taken: list[list[bool]] | None = None  # where they are told, if that is known already
+    taken: Sequence[Sequence[bool]] | None = None  # where they are told, if that is known already
     faults: bool = False  # what the instrument may do unnoticed was counted as doubt
     beyond: tuple[tuple[float, float], ...] = ()  # what theta_i and theta_r have beyond the digits that are read [deg]
     as_read: tuple[tuple[float, ...], ...] | None = None  # values before any was left out; None where that is not known
@@ -58,7 +60,7 @@ class Readings:
         return [ExactReading((i + i2, at, r + r2, to), self.solid_angle) for (i, at, r, to), (i2, r2) in pairs]
 
     @cached_property
-    def told(self) -> list[list[bool]]:
+    def told(self) -> Sequence[Sequence[bool]]:
         """Where a value is positive, of a size, above the horizon and clear of the dark level."""
         return self.taken or [
             [1 / LARGEST < v < LARGEST and v >= limit and up for v, limit in zip(row, self.limits, strict=True)]
@@ -116,7 +118,7 @@ class Readings:
         known = [any(row) for row in self.told]
         if not self.by_scan:
             return [1] * len(self.angles)
-        number = _held([each[0] for each in self.angles])
+        number = held_numbers([each[0] for each in self.angles])
         count = Counter(place for place, has in zip(number, known, strict=True) if has)
         most = max(count.values())
         raw = [_of_scan(count[place], most) for place in number]
@@ -132,13 +134,32 @@ class Readings:
             out.append(theta_r if toward >= -(mpf(10) ** -14) or theta_i == 0 and toward > 0 else -theta_r)
         return out
 
+    def part(self, rows: Sequence[int], channels: Sequence[int]) -> "Readings":
+        """Some directions and channels, by their numbers."""
+
+        def few(table):
+            return tuple(tuple(table[row][c] for c in channels) for row in rows) if table is not None else None
+
+        return replace(
+            self,
+            angles=tuple(self.angles[row] for row in rows),
+            values=few(self.values),
+            limits=tuple(self.limits[c] for c in channels),
+            wavelengths=tuple(self.wavelengths[c] for c in channels),
+            doubt=tuple(self.doubt[c] for c in channels) if self.doubt else (),
+            stated=few(self.stated),
+            taken=few(self.taken),
+            beyond=tuple(self.beyond[row] for row in rows) if self.beyond else (),
+            as_read=few(self.as_read),
+        )
+
 
 def _of_scan(count: int, most: int):
     """Scans of fewer than five directions are none, and gain nothing by being few."""
     return min(mpf(most) / (count if count >= 5 else most), mpf(10))
 
 
-def _held(angles: list[float]) -> list[int]:
+def held_numbers(angles: list[float]) -> list[int]:
     """The number of the held angle that each belongs to."""
     order = sorted(range(len(angles)), key=lambda place: angles[place])
     number, numbers = 0, [0] * len(angles)
@@ -310,80 +331,17 @@ def was_turned(data: Readings) -> bool:
 
 
 def _turns(data: Readings) -> list[int]:
-    """The number of the azimuth of the light at each row, to a degree, half a turn being none; 0 throughout where the
-    sample was not turned, or was not held."""
+    """The number of the turn of each row; 0 throughout where the sample was not turned, or was not held."""
+    of_each = turn_azimuths(data)
+    known = sorted(set(of_each))
+    return [known.index(each) for each in of_each]
+
+
+def turn_azimuths(data: Readings) -> list[int]:
+    """The azimuth of the light [deg] that stands for each row's turn, to a degree, half a turn being none; 0 throughout
+    where the sample was not turned, or was not held."""
     azimuth = [round(phi_i) % 180 for _, phi_i, _, _ in data.angles]
     known = sorted({turn for turn, each in zip(azimuth, data.angles, strict=True) if each[0] > TILTED_DEG})
     if not 2 <= len(known) <= MOST_TURNS:
         return [0] * len(azimuth)
-    return [min(sum(each < turn for each in known), len(known) - 1) for turn in azimuth]
-
-
-@dataclass(frozen=True, eq=False)
-class Ring:
-    """S of grey scans in the plane of incidence: rows that count, their weights, and how bright each looks [L*]."""
-
-    data: Readings
-
-    @cached_property
-    def rows(self) -> list[int]:
-        return [
-            place
-            for place, (angles, row) in enumerate(zip(self.data.angles, self.data.values, strict=True))
-            if max(angles[0], angles[2]) <= LIMIT_DEG + 1e-7 and abs(row[0]) < LARGEST
-        ]
-
-    @cached_property
-    def weights(self) -> list:
-        """cos θi cos θr max(sin min(|r - i|, 90°), sin(step/4)) step over the readings that share an angle."""
-        light = [self.data.angles[place][0] for place in self.rows]
-        view = [self.data.signed_theta_r[place] for place in self.rows]
-        steps = self._steps(light, view)
-        out = []
-        for place, i, r, (step, alike) in zip(self.rows, light, view, steps, strict=True):
-            pair = self.data.sights[place].pair
-            ring = max(sin(radians(min(abs(mpf(r) - mpf(i)), mpf(90)))), sin(step / 4))
-            out.append(pair.cos_i * pair.cos_r * ring * step / alike)
-        return out
-
-    def _steps(self, light, view) -> list:
-        held, moved = _held(light), view
-        sizes = sorted(Counter(held).values())
-        if sizes[len(sizes) // 2] < 3 and max(_held(view)) < max(held):
-            held, moved = _held(view), light
-        scans = defaultdict(list)
-        for rank, place in enumerate(self.rows):
-            scans[held[rank], round(self.data.angles[place][1] % 360) % 360].append(rank)
-        out: list = [None] * len(self.rows)
-        for members in scans.values():
-            alike = Counter(moved[rank] for rank in members)
-            angles = sorted(alike)
-            for rank in members:
-                out[rank] = _gradient(angles, angles.index(moved[rank])), alike[moved[rank]]
-        return out
-
-    def lightness(self, row_residuals: list[list] | None, surface: ExactSurface | None = None) -> list:
-        """116 ∛(π f cos θi) of the data, or of a model by its residuals, by the model itself where nothing is told."""
-        out = []
-        for place in self.rows:
-            value = mpf(self.data.values[place][0])
-            sight = self.data.sights[place]
-            if row_residuals is not None and row_residuals[place][0] is not None:
-                value *= exp(min(row_residuals[place][0], mpf(300)))
-            elif surface is not None:
-                value = sight.reading(surface, 0, self.data.wavelengths[0])
-            out.append(116 * cbrt(max(value, mpf(0)) * pi * sight.pair.cos_i))
-        return out
-
-    def apart(self, one: list, other: list) -> mpf:
-        """S [L*] of two lightnesses."""
-        squares = (w * (a - b) ** 2 for w, a, b in zip(self.weights, one, other, strict=True))
-        return sqrt(fsum(squares) / fsum(self.weights))
-
-
-def _gradient(angles: list[float], place: int):
-    """[rad] between neighbours: half of the two steps beside it, the one step at an end; 1 where it stands alone."""
-    if len(angles) == 1:
-        return mpf(1)
-    before, after = max(place - 1, 0), min(place + 1, len(angles) - 1)
-    return radians(mpf(angles[after]) - mpf(angles[before])) / (after - before)
+    return [known[min(bisect_left(known, turn), len(known) - 1)] for turn in azimuth]

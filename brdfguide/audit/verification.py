@@ -18,12 +18,13 @@ from ..errors import InputError
 from ..records import dataclass
 from . import exact_errors, exact_followers
 from .answer_shape import refuse_gaps
-from .exact_errors import Readings, Ring
+from .exact_errors import Readings
 from .exact_floor import compare_floor
-from .exact_held_out import compare_held_out
+from .exact_held_out import LookedAt, compare_held_out
 from .exact_instrument import compare_instrument, undrifted
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
 from .exact_noise import compare_noise
+from .exact_ring import Ring
 from .exact_stray_light import compare_stray_light
 from .exact_surface import NoLaw, RoundingDecides, TooNarrow, surface_of
 from .rederived import Comparisons, Rederived
@@ -66,7 +67,7 @@ def verify(
         found.check("noise.values_told", answer["noise"].get("values_told"), sum(map(sum, data.told)))
         compare_noise(answer, data, found)
         grey = _grey_ring(answer, data)
-        rows = {}
+        rows, again = {}, LookedAt.of(answer, data)
         drifted = any(_has(row, "instrument") or row.get("instrument") for row in answer["ranking"])
         for place, row in enumerate(answer["ranking"]):
             progress(row["candidate"])
@@ -79,7 +80,7 @@ def verify(
                 left[row["candidate"]] = "what the instrument did changes which values are too dim to tell"
                 continue
             try:
-                rows[place] = _Row(row, f"ranking[{place}]", data, grey, answer["metric"])
+                rows[place] = _Row(row, f"ranking[{place}]", data, grey, answer["metric"], again)
             except NoLaw as missing:
                 left[row["candidate"]] = f"no law called {missing} is written down a second time"
             except TooNarrow:
@@ -97,7 +98,7 @@ def verify(
             exact_followers.copies(answer, found)
             exact_followers.programs(answer, found)
             compare_stray_light(answer, found)
-    used = sum(map(_parameters_of, answer["ranking"]))
+    used = sum(map(_parameters_of, answer["ranking"])) + len((answer.get("held_out_on") or {"rows": ()})["rows"])
     return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
 
 
@@ -153,10 +154,10 @@ def _as_read(measurement: Measurement, lacks: bool, before: Measurement | None):
 
 
 def _parameters_of(row: dict) -> int:
-    """How many numbers of one row are parameters: its own, those found without a group of incidences, and those of an
-    instrument beside it."""
-    values = [entry["value"] for entry in row["parameters"].values()]
-    values += [value for fold in row.get("held_out_fits") or [] for value in fold["values"].values()]
+    """How many numbers of one row are parameters: its own, those found without a group of incidences or turns, and
+    those of an instrument beside it."""
+    values, folds = [entry["value"] for entry in row["parameters"].values()], row.get("held_out_fits") or []
+    values += [value for fold in folds for value in (*fold["values"].values(), fold.get("turns_deg"))]
     values += (row.get("instrument") or {}).values()
     return sum(map(_size, values))
 
@@ -208,8 +209,10 @@ def _grey_ring(answer: dict, data: Readings) -> tuple[Ring, list] | None:
 class _Row:
     """One row with its exact residuals."""
 
-    def __init__(self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None, metric: str):
-        self.row, self.place, self.grey, self.metric = row, place, grey, metric
+    def __init__(
+        self, row: dict, place: str, data: Readings, grey: tuple[Ring, list] | None, metric: str, again: LookedAt
+    ):
+        self.row, self.place, self.grey, self.metric, self.again = row, place, grey, metric, again
         self.surface = surface_of(row["model"], row["parameters"])
         by_flag = next((each["numbers"] for each in row["flags"] if each["code"] == "instrument"), None)
         self.drift = row.get("instrument") or by_flag
@@ -246,7 +249,7 @@ class _Row:
         exact_followers.reflectance_errors(row, place, found)
         exact_followers.regimes(row, place, found)
         exact_followers.exact_growth(self, self.data, found)
-        compare_held_out(row, place, self.data, found)
+        compare_held_out(row, place, self.data, self.again, found)
         compare_instrument(row, place, found)
         for flag in row["flags"]:
             if flag["code"] == "discrepancy":

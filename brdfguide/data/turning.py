@@ -17,11 +17,19 @@ def turn_of_each(to: Directions) -> np.ndarray | None:
     none; None where it has one only, or so many that the sample was not held."""
     if not len(to) or np.all(to.phi_i_deg == to.phi_i_deg[0, 0]):
         return None
-    azimuth = np.remainder(np.round(to.phi_i_deg[:, 0]), 180.0)
-    known = np.unique(azimuth[to.theta_i_deg[:, 0] > TILTED_DEG])
+    known = turns_deg(to)
     if not 2 <= len(known) <= MOST_TURNS:
         return None
-    return np.searchsorted(known, azimuth).clip(max=len(known) - 1)
+    return np.searchsorted(known, _azimuth_deg(to)).clip(max=len(known) - 1)
+
+
+def turns_deg(to: Directions) -> np.ndarray:
+    """The azimuths of the light by which turns are told, ascending, to a degree, from 0 to 179."""
+    return np.unique(_azimuth_deg(to)[to.theta_i_deg[:, 0] > TILTED_DEG])
+
+
+def _azimuth_deg(to: Directions) -> np.ndarray:
+    return np.remainder(np.round(to.phi_i_deg[:, 0]), 180.0)
 
 
 def turned_parts(measurement: Measurement) -> list[Measurement]:

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..data.measurement import Measurement
-from ..data.turning import turn_of_each
+from ..data.turning import turn_of_each, turns_deg
 from ..finding import Finding
 from ..flags import Effect
 from ..formed import formed
@@ -72,16 +72,15 @@ def _held_out(following: Following, ends: list[End], folds: list["_Fold"]) -> He
         last = float(np.sqrt(square / known.size)) if known.size else np.nan
     highest = folds[-1].inside
     told = highest.clear.any(axis=1)
-    steepest, without = float(highest.geom.theta_i_deg[told].max()), tuple[LeftOut, ...]()
-    if turn_of_each(following.misfit.measurement.geom) is None:
-        without = tuple(_left_out(following.misfit.layout, end, fold) for end, fold in zip(ends, folds, strict=True))
+    steepest = float(highest.geom.theta_i_deg[told].max())
+    without = tuple(_left_out(following.misfit.layout, end, fold) for end, fold in zip(ends, folds, strict=True))
     return HeldOut(float(np.sqrt(squares / counts)), last, steepest, without)
 
 
 def _left_out(layout: Layout, end: End, fold: "_Fold") -> LeftOut:
     values, theta_i = layout.decode(end.shared, end.per_channel), fold.inside.geom.theta_i_deg
     searched = {key: values[key] for key in (*layout.shared, *layout.per_channel)}
-    return LeftOut((float(theta_i.min()), float(theta_i.max())), searched)
+    return LeftOut((float(theta_i.min()), float(theta_i.max())), searched, fold.turns_deg)
 
 
 def _foretold(following: Following, ends: list[End], folds: list["_Fold"]) -> Iterator[np.ndarray]:
@@ -176,17 +175,18 @@ def _lobes(fit: Fit) -> int:
 @formed
 def thinned(measurement: Measurement) -> Measurement:
     """Few enough directions and channels for repeated fits."""
-    kept = measurement if measurement.has_value.all() else measurement[measurement.has_value]
-    rows = starting_grid.spread_rows(kept, SAMPLES)
-    few = kept if len(rows) == len(kept.brdf) else kept[rows]
-    channels = few_channels(measurement.brdf.shape[1])
+    rows, channels = thinned_rows(measurement), few_channels(measurement.brdf.shape[1])
+    few = measurement if len(rows) == len(measurement.brdf) else measurement[rows]
     return few if len(channels) == measurement.brdf.shape[1] else few.of_channels(channels)
 
 
-def looks_at_all(measurement: Measurement) -> bool:
-    """Whether repeated fits look at every value."""
-    few = thinned(measurement)
-    return few.brdf.shape == (np.count_nonzero(measurement.has_value), measurement.brdf.shape[1])
+@formed
+def thinned_rows(measurement: Measurement) -> np.ndarray:
+    """Which rows those are, ascending: of those with a value about as many as repeated fits look at."""
+    if measurement.has_value.all():
+        return starting_grid.spread_rows(measurement, SAMPLES)
+    known = np.flatnonzero(measurement.has_value)
+    return known[starting_grid.spread_rows(measurement[measurement.has_value], SAMPLES)]
 
 
 def thinned_surface(fit: Fit) -> Surface:
@@ -202,23 +202,25 @@ class _Fold:
 
     kept: np.ndarray
     inside: Measurement
+    turns_deg: tuple[float, ...]  # azimuths of the light that are held out; none where incidences are
 
 
 @formed
 def _divided(measurement: Measurement) -> list[_Fold]:
     """Only groups with a value that is clear of the dark level, in turn."""
     clear = measurement.clear.any(axis=1)
-    folds = [*_turned_folds(measurement), *_folds(measurement.geom.theta_i_deg[:, 0])]
-    return [_Fold(~inside, measurement[inside]) for inside in folds if np.any(clear & inside)]
+    by_incidence = [(inside, tuple[float, ...]()) for inside in _folds(measurement.geom.theta_i_deg[:, 0])]
+    folds = [*_turned_folds(measurement), *by_incidence]
+    return [_Fold(~inside, measurement[inside], turns) for inside, turns in folds if np.any(clear & inside)]
 
 
-def _turned_folds(measurement: Measurement) -> list[np.ndarray]:
-    """Masks of turns of the sample, each left out; none where what is left would be one turn."""
+def _turned_folds(measurement: Measurement) -> list[tuple[np.ndarray, tuple[float, ...]]]:
+    """Masks of turns of the sample, each left out, and their azimuths; none where what is left would be one turn."""
     turns = turn_of_each(measurement.geom)
     if turns is None or turns.max() < 2:
         return []
-    groups = turns % FOLDS
-    return [groups == each for each in np.unique(groups)]
+    groups, known = turns % FOLDS, turns_deg(measurement.geom.directions)
+    return [(groups == each, tuple(known[each::FOLDS].tolist())) for each in np.unique(groups)]
 
 
 def _folds(angles) -> list[np.ndarray]:

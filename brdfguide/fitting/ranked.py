@@ -16,10 +16,11 @@ BETTER = 0.97  # of an error, below which another is less in earnest: worth a st
 
 @dataclass(frozen=True, eq=False)
 class LeftOut:
-    """A group of incidence angles, and the numbers that were searched for without it."""
+    """A group of incidence angles or of turns, and the numbers that were searched for without it."""
 
     theta_i_deg: tuple[float, float]  # the lowest and the highest
     values: Mapping  # by key, numbers or arrays with one for each channel
+    turns_deg: tuple[float, ...] = ()  # azimuths of the light; none where the group is of incidences
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class HeldOut:
     rms_ln: float  # over all folds
     highest_rms_ln: float  # the steepest incidence angles, predicted from the others
     highest_theta_i_deg: float
-    folds: tuple[LeftOut, ...] = ()  # none where other things than incidences tell what was left out
+    folds: tuple[LeftOut, ...] = ()
 
 
 class Cost(Protocol):

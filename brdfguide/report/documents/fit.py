@@ -9,13 +9,14 @@ import numpy as np
 
 from ...data.measurement import Measurement
 from ...data.metal_or_dielectric import Verdict
-from ...fitting.cross_validation import looks_at_all
+from ...fitting.cross_validation import thinned_rows
 from ...fitting.fit import Fit
 from ...fitting.missing_term import missing_term
 from ...fitting.next_measurement import Next
 from ...fitting.next_picture import NextPicture
 from ...fitting.objective import METRICS, SEEN
 from ...fitting.off_plane_price import off_plane_price
+from ...fitting.prepared import few_channels
 from ...fitting.ranked import Ranking, Row
 from ...fitting.stray_light import stray_light
 from ...flags import Effect
@@ -55,6 +56,7 @@ def fit_document(
             "noise": _noise(ranking, measurement),
             "noise_rms_ln": _round(ranking.noise),
             "ranking": rows,
+            "held_out_on": _held_out_on(ranking, measurement),
             "floor": floor_block(ranking),
             "seen_order": _seen_order(ranking),
             "no_answer": ranking.no_answer or None,
@@ -254,20 +256,31 @@ def _instrument(fit: Fit) -> dict | None:
 
 
 def _held_out_fits(row: Row, measurement: Measurement) -> list[dict] | None:
-    """What was searched for without each group of incidences, where that looked at every value."""
-    if row.held_out is None or not row.held_out.folds or not looks_at_all(measurement):
+    """What was searched for without each group of incidences or of turns, in the channels that were looked at."""
+    if row.held_out is None:
         return None
-    parameters = row.fit.model.parameters
+    parameters, channels = row.fit.model.parameters, len(few_channels(len(measurement.channels)))
     return [
         {
             "theta_i_deg": fold.theta_i_deg,
+            "turns_deg": fold.turns_deg,
             "values": {
-                key: _of_channels(parameters[key], parameters[key].outside(value), row.fit)
+                key: _of_channels(parameters[key], parameters[key].outside(value), channels)
                 for key, value in fold.values.items()
             },
         }
         for fold in row.held_out.folds
     ]
+
+
+def _held_out_on(ranking: Ranking, measurement: Measurement) -> dict | None:
+    """Which directions and channels repeated fits looked at; None where those were all that have a value."""
+    if not any(row.held_out for row in ranking.rows):
+        return None
+    rows, channels = thinned_rows(measurement), few_channels(len(measurement.channels))
+    if (len(rows), len(channels)) == (np.count_nonzero(measurement.has_value), len(measurement.channels)):
+        return None
+    return {"rows": rows.tolist(), "channels": [measurement.channels[place] for place in channels]}
 
 
 def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
@@ -276,13 +289,14 @@ def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
     Of those in `shows` also how well they are known, as two standard errors, and from which share of their value on a
     change begins to show; null: none within the bounds.
     """
-    out = {}
+    out, channels = {}, len(fit.surface.channels)
     at_bound = {warning.subject for warning in fit.warnings if warning.effect is Effect.AT_BOUND}
     for key, parameter in fit.model.parameters.items():
         value, stderr = fit.values[key], fit.stderr.get(key)
         ends = [end for end in ("low", "high") if key in at_bound and _at(parameter, value, end)]
         shown = [
-            None if each is None else _of_channels(parameter, parameter.outside(each), fit) for each in (value, stderr)
+            None if each is None else _of_channels(parameter, parameter.outside(each), channels)
+            for each in (value, stderr)
         ]
         out[key] = {
             "value": shown[0],
@@ -314,17 +328,17 @@ def _parameters(fit: Fit, shows: Mapping, measurement: Measurement) -> dict:
     return out
 
 
-def _of_channels(parameter, value, fit: Fit):
+def _of_channels(parameter, value, channels: int):
     """Of what belongs to channels an array with a value for each, also where it was held; of the rest a number."""
-    if not parameter.per_channel or np.shape(value) == (len(fit.surface.channels),):
+    if not parameter.per_channel or np.shape(value) == (channels,):
         return value
-    return np.broadcast_to(value, len(fit.surface.channels))
+    return np.broadcast_to(value, channels)
 
 
 def _typed(fit: Fit) -> dict:
     """name -> value of all that `evaluate` and `export --model` want; what is left out keeps its default."""
     return {
-        key: _of_channels(parameter, parameter.outside(fit.values[key]), fit)
+        key: _of_channels(parameter, parameter.outside(fit.values[key]), len(fit.surface.channels))
         for key, parameter in fit.model.parameters.items()
         if fit.stderr.get(key) is not None or not np.all(np.asarray(fit.values[key]) == parameter.default)
     }
