@@ -4,8 +4,8 @@ and floors say of a relative doubt and of the dark level's.
     departure = f (ln f - cubic through ln of two neighbours on either side of a scan) / √(1 + Σ weights²)
 
 of f itself where a value is not positive; of directions mirrored at the plane of incidence half their difference,
-where scans tell too few. Where no plane is mirrored either, and of more directions than a search settles on, nothing is
-derived.
+where scans tell too few; where no plane is mirrored either each is compared with those around it. In a dense table,
+where neighbours stand beside each other in the file, nothing is derived.
 """
 
 from collections import defaultdict
@@ -15,12 +15,13 @@ from statistics import median
 from mpmath import fsum, log, mpf, sqrt
 
 from ..records import dataclass
-from .exact_errors import LARGEST, PER_MEDIAN, Readings, was_turned
+from .exact_errors import LARGEST, PER_MEDIAN, Readings, turn_azimuths
 from .exact_exchange import Undecided, doubts_of_exchange
+from .exact_scattered import NearestUndecided, departures_scattered
 from .exact_two_parts import Departure, relative_and_absolute
 from .rederived import Comparisons
 
-MOST_DIRECTIONS = 2000
+MOST_DIRECTIONS = 200_000  # of a table that is not dense
 ENOUGH = 40  # comparisons, beyond which no others are made
 FEWEST_OF_SCAN, FEWEST = 5, 20  # directions of a scan; departures whose median is a size by itself
 WIDEST_DEG, STEEPEST_DEG = 24.0, 85.0  # of five neighbours, and where the middle one lies
@@ -33,7 +34,8 @@ PLATEAU, LEAST_PLATEAU, ONE_LEVEL = 0.15, 20, 1.6  # share and number of values 
 BLACKEST, LEAST_RANGE = 2e-4, 1e5  # reflectance of a plateau, and how far values reach from there
 CLEAR, DIM, FEW_DIM = 10, 5, 0.01  # doubts from which a value is told; below which scales differ; of how many
 LOST = 1e-12  # relative, of a model without noise
-CLOSE = 1e-9  # relative, of an absolute doubt
+CLOSE = 1e-9  # relative, of a doubt
+OF_PARABOLAS = 1e-8  # the same where twelve neighbours may nearly stand in a line; 2.4e-10 is the most that was found
 PI = 3.141592653589793
 
 
@@ -50,21 +52,18 @@ class ValuesAsRead:
 def compare_noise(answer: dict, data: Readings, found: Comparisons) -> bool:
     """The doubts of single values; False where they do not follow."""
     told = answer["noise"]
-    if (
-        not told.get("absolute_per_sr")
-        or len(data.angles) > MOST_DIRECTIONS
-        or data.as_read is None
-        or was_turned(data)
-    ):
+    if not told.get("absolute_per_sr") or len(data.angles) > MOST_DIRECTIONS or data.as_read is None:
         return False
     seen = _as_read(answer, data)
-    departures = _departures(seen)
-    if departures is None:
+    try:
+        departures, close = _departures(seen)
+    except NearestUndecided:
         return False
     pooled = _pooled(departures)
     relative = _nearest([pair[0] for pair in pooled], told["relative"]) if pooled else None
     pooled = [pair for pair in pooled if pair[0] == relative]
-    found.check("noise.relative", told["relative"], mpf("nan") if relative is None else relative, absolute=LOST)
+    right = mpf("nan") if relative is None else relative
+    found.check("noise.relative", told["relative"], right, close, absolute=LOST)
     try:
         exchanged = doubts_of_exchange(data, seen.values, seen.ln, told.get("dark_level_per_sr") is not None)
     except Undecided:
@@ -155,10 +154,12 @@ def _matters(seen: ValuesAsRead, doubts: list) -> bool:
 
 
 def _negative(seen: ValuesAsRead) -> list:
-    """Doubt that values below zero show: of colours in each channel, of other channels together."""
+    """Doubt that values below zero show: of colours in each channel of which most are, of other channels together."""
     assert seen.data.as_read is not None
-    columns = [[-mpf(v) for v in column if v < 0] for column in zip(*seen.data.as_read, strict=True)]
-    if not seen.colours:
+    columns, half = [[-mpf(v) for v in each if v < 0] for each in zip(*seen.data.as_read, strict=True)], 0.5
+    if seen.colours:
+        columns = [each if len(each) > half * len(seen.data.as_read) else [] for each in columns]
+    else:
         columns = [[v for column in columns for v in column]] * len(columns)
     return [PER_MEDIAN * median(column) if len(column) >= FEW_NEGATIVE else mpf(0) for column in columns]
 
@@ -181,33 +182,34 @@ def _plateau(seen: ValuesAsRead):
 # --- neighbours --------------------------------------------------------------------------------------
 
 
-def _departures(seen: ValuesAsRead) -> list[list[Departure | None]] | None:
-    """By comparison and channel, None where a value lacks; None in all where directions are compared that neither
-    lie in a scan nor are mirrored."""
+def _departures(seen: ValuesAsRead) -> tuple[list[list[Departure | None]], float]:
+    """By comparison and channel, None where a value lacks, and to what share of its value the relative doubt that they
+    show is kept in doubles. Raises NearestUndecided."""
     found = [row for scan in _scans(seen.data) for row in _along(seen, *scan)]
     if len(found) < ENOUGH:
         found += _mirrored(seen)
-    if len(found) < ENOUGH and _scattered(seen):
-        return None
-    return found
+    if len(found) >= ENOUGH:
+        return found, CLOSE
+    return found + departures_scattered(seen.data, seen.ln), OF_PARABOLAS
 
 
 def _scans(data: Readings) -> list[tuple[list[int], list[float]]]:
     """Rows in order and their angle [deg], over the reflected angle at one incidence, and over the incidence at one
-    reflected angle; of a sample that was not turned."""
+    reflected angle; under each turn of the sample by itself."""
     keys = []
-    for (theta_i, phi_i, theta_r, phi_r), sight in zip(data.angles, data.sights, strict=True):
+    turned = zip(data.angles, data.sights, turn_azimuths(data), strict=True)
+    for (theta_i, phi_i, theta_r, phi_r), sight, turn in turned:
         phi = phi_r - phi_i + SAME_DEG
         upright = 1 - sight.pair.cos_i**2 < NORMAL**2
         plane = 0 if upright else round(phi % 180) % 180
         signed = theta_r if phi % 360 >= 179.5 else -theta_r
-        keys.append(((round(10 * theta_i), plane, signed), (round(10 * signed), plane, theta_i)))
+        keys.append(((turn, round(10 * theta_i), plane, signed), (turn, round(10 * signed), plane, theta_i)))
     out = []
     for way in (0, 1):
         groups = defaultdict(list)
         for row, each in enumerate(keys):
-            groups[each[way][:2]].append((each[way][2], row))
-        for key in sorted(groups, key=lambda each: 1000 * each[0] + each[1]):
+            groups[each[way][:3]].append((each[way][3], row))
+        for key in sorted(groups, key=lambda each: (each[0], 1000 * each[1] + each[2])):
             members = groups[key]
             if len(members) >= FEWEST_OF_SCAN:
                 members.sort(key=lambda member: member[0])
@@ -279,11 +281,3 @@ def _half(seen: ValuesAsRead, one: int, other: int, channel: int) -> Departure |
     ln_a, ln_b = seen.ln[one][channel], seen.ln[other][channel]
     apart = a - b if ln_a is None or ln_b is None else (ln_a - ln_b) * level
     return Departure(max(0.5 * (float(a) + float(b)), 0.0), level, apart / sqrt(2))
-
-
-def _scattered(seen: ValuesAsRead) -> bool:
-    """Whether some incidence has so many directions that each is compared with a parabola through its neighbours."""
-    counts: dict[float, int] = defaultdict(int)
-    for (theta_i, *_), row in zip(seen.data.angles, seen.ln, strict=True):
-        counts[round(10 * theta_i)] += any(v is not None for v in row)
-    return max(counts.values()) >= FEWEST

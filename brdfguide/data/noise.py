@@ -18,6 +18,7 @@ SPIKE_DROPS = ((np.log(5.0), 3.0), (np.log(100.0), 1.5))
 GRAZING_DEG = 85.0
 DENSE = 200_000  # directions beyond which a table is dense and has no single samples
 ASKED = 1000  # directions compared with their neighbours where there are no scans
+NEARER = 9  # decimals of a squared distance by which the nearest are found
 EDGE_DEG = 75.0  # beyond this a scan may be cut off
 DETECTED = 3.0  # doubts of the dark level above which a value tells from nothing (IUPAC's detection)
 SPECTRUM = 5  # channels
@@ -370,9 +371,13 @@ def _scattered(measurement: Measurement, level):
 
 
 def _beside(places, asked, first, size):
-    """The twelve places nearest to each of those `asked`, out of the `size` from `first` on; (asked, 12)."""
+    """The twelve places nearest to each of those `asked`, out of the `size` from `first` on; (asked, 12).
+
+    Squared distances are told apart to nine decimals, and of places as near the first in the file are taken: on a mesh
+    many are, and rounding or the processor's way to sort would decide.
+    """
     among = np.arange(size.max())
     columns = np.minimum(first[:, None] + among, len(places) - 1)
-    apart = np.sum((places[columns] - places[asked][:, None]) ** 2, axis=2)
+    apart = np.rint(np.sum((places[columns] - places[asked][:, None]) ** 2, axis=2) * 10**NEARER) * len(among) + among
     apart[(among >= size[:, None]) | (columns == asked[:, None])] = np.inf
-    return np.take_along_axis(columns, np.argpartition(apart, 11, axis=1)[:, :12], axis=1)
+    return np.take_along_axis(columns, np.sort(np.argpartition(apart, 11, axis=1)[:, :12], axis=1), axis=1)

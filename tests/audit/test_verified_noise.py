@@ -181,7 +181,7 @@ def test_a_floor_that_was_noticed_is_three_doubts(data):
 @pytest.mark.parametrize("colours", [False, True])
 def test_values_below_zero_are_doubts_of_each_colour_or_of_all_other_channels_together(colours):
     below = {0: (0.001, 0.002, 0.003), 1: (0.004, 0.008, 0.006), 2: (0.1, 0.2)}
-    values = [[0.5, 0.5, 0.5] for _ in range(4)]
+    values = [[0.5, 0.5, 0.5] for _ in range(4)]  # of a colour outside sRGB most is negative
     for channel, sizes in below.items():
         for row, size in enumerate(sizes):
             values[row][channel] = -size
