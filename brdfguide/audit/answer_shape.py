@@ -275,6 +275,18 @@ class PrintedStrayLight:
 
 
 @dataclass(frozen=True)
+class PrintedExport:
+    """A file that was written beside the answer; what stands in it is read as its target has it."""
+
+    model: str
+    status: str
+    rms_ln: Number = None
+    measured_rms_ln: Number = None
+    seen: Number = None
+    directions: int | None = None
+
+
+@dataclass(frozen=True)
 class PrintedFit:
     """`fit --json`."""
 
@@ -292,6 +304,7 @@ class PrintedFit:
     warnings: tuple[PrintedFlag, ...] = ()
     off_plane: PrintedPrice | None = None
     numbers: tuple[PrintedCard, ...] | None = None
+    exports: tuple[PrintedExport, ...] = ()
 
 
 def refuse_gaps(answer: dict) -> None:

@@ -62,7 +62,7 @@ class ExactSurface:
     parts: tuple[TermInAnswer, ...]
     values: dict  # key -> one number, or one for each channel, as printed
     moved: str = ""  # the key of a number that is a step larger
-    known: dict = field(default_factory=dict)  # (part, pair, channel) -> what was evaluated before any number moved
+    known: dict = field(default_factory=dict)  # (part, pair, first channel of that shape) -> f, of amplitude 1
 
     @cached_property
     def slack(self) -> float:
@@ -129,15 +129,43 @@ class ExactSurface:
         return sum((self._once(each, pair, channel, wavelength) for each in self.parts), mpf(0))
 
     def _once(self, part: TermInAnswer, pair, channel: int, wavelength):
-        if self.moved:
+        """What channels share is evaluated once: most laws are proportional to a number that each has for itself."""
+        if self.moved and not self._has_channels:
             return self._part(part, pair, channel, wavelength)
-        at = part, pair, channel
+        amplitude, first = self._shape_of(part, channel)
+        at = part, pair, first
         if at not in self.known:
-            self.known[at] = self._part(part, pair, channel, wavelength)
-        return self.known[at]
+            self.known[at] = self._part(part, pair, channel, wavelength, amplitude)
+        return self.known[at] * self._numbers_of(part, channel)[amplitude] if amplitude else self.known[at]
 
-    def _part(self, part: TermInAnswer, pair, channel: int, wavelength):
+    @cached_property
+    def _has_channels(self) -> bool:
+        return any(isinstance(each, list) and len(each) > 1 for each in self.values.values())
+
+    @cached_property
+    def _shapes(self) -> dict:
+        """(part, channel) -> what `_shape_of` gives; filled as it is asked for."""
+        return {}
+
+    def _shape_of(self, part: TermInAnswer, channel: int) -> tuple[str, int]:
+        """The number that a law is proportional to, "" for none, and the first channel that has all others alike; a law
+        that knows the wavelength has another shape in each."""
+        if (part, channel) not in self._shapes:
+            amplitude = next((name for name, _ in part.keys if name in LINEAR), "")
+            wanted, first = self._others(part, channel, amplitude), channel
+            if part.law not in textbook_more.WAVES:
+                first = next(c for c in range(channel + 1) if self._others(part, c, amplitude) == wanted)
+            self._shapes[part, channel] = amplitude, first
+        return self._shapes[part, channel]
+
+    def _others(self, part: TermInAnswer, channel: int, amplitude: str) -> list:
+        over = [self.at(key, channel) for key in COAT] if part.coated else []
+        return over + [value for name, value in self._numbers_of(part, channel).items() if name != amplitude]
+
+    def _part(self, part: TermInAnswer, pair, channel: int, wavelength, amplitude: str = ""):
+        """One term; with 1 for the number that `amplitude` names."""
         values = self._numbers_of(part, channel)
+        values = values | {amplitude: mpf(1)} if amplitude else values
         if not part.coated:
             return textbook_more.evaluated(part.law, pair, values, wavelength)
         n, depth = (self.at(key, channel) for key in COAT)

@@ -19,6 +19,7 @@ from ..records import dataclass
 from . import exact_errors, exact_followers
 from .answer_shape import refuse_gaps
 from .exact_errors import Readings
+from .exact_exports import compare_exports
 from .exact_floor import compare_floor
 from .exact_held_out import LookedAt, compare_held_out
 from .exact_instrument import compare_instrument, undrifted
@@ -87,11 +88,13 @@ def verify(
                 left[row["candidate"]] = "of a lobe so narrow the program's series tells too few digits"
             except RoundingDecides:
                 left[row["candidate"]] = "its lobe ends where some directions lie: rounding decides on which side"
-        for each in rows.values():
-            each.errors(found)
+            else:
+                rows[place].errors(found)
         _noise_and_floor(answer, rows, data, found)
         _differences(rows, len(rows) == len(answer["ranking"]), found)
-        exact_followers.price(answer, {each.row["candidate"]: each for each in rows.values()}, data, found)
+        by_name = {each.row["candidate"]: each for each in rows.values()}
+        exact_followers.price(answer, by_name, data, found)
+        compare_exports(answer, by_name.get(answer["recommended"]), data, found)
         if only is None:
             _orders(answer, found)
             exact_followers.ranks(answer, found)
@@ -254,6 +257,7 @@ class _Row:
         for flag in row["flags"]:
             if flag["code"] == "discrepancy":
                 self._discrepancy(flag["numbers"], f"{place}.flags.discrepancy", found)
+        self.surface.known.clear()  # of a large table all rows together would hold much
 
     def _discrepancy(self, told: dict, place: str, found: Comparisons) -> None:
         """How neighbours err together, and what follows: 100 (e^(rms √ρ) - 1), and the chance of a z so large."""

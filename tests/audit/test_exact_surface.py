@@ -8,7 +8,7 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 from mpmath import mp, mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_surface, textbook_more
+from brdfguide.audit import exact_surface, textbook, textbook_more
 from brdfguide.fitting.layout import Layout
 from brdfguide.fitting.reading import reading
 from brdfguide.models.surface import Surface
@@ -57,3 +57,25 @@ def test_a_coat_an_aperture_and_its_mirror_beam_are_too():
             sight = exact_surface.ExactReading((theta_i, 0.0, theta_r, phi), 0.003)
             assert value == pytest.approx(float(sight.reading(exact, 0, mpf(0.55))), rel=1e-11)
     assert mp.dps == 15
+
+
+@pytest.mark.parametrize(("model", "times"), [("lambertian+ggx", 7), ("ggx+coated:lambertian", 7)])
+def test_what_channels_share_is_evaluated_once(model, times, monkeypatch):
+    """Of six channels: a lobe once, and each body by itself."""
+    draw = np.random.default_rng(5)
+    parameters = {
+        key: {"value": draw.uniform(0.2, 0.6, 6).tolist() if each.per_channel else 0.3}
+        for key, each in models.get(model).parameters.items()
+    }
+    parameters |= {key: {"value": 1.5 if key.endswith(".n") else 0.0} for key in parameters if key[-2:] in (".n", ".k")}
+    calls, evaluated = [], textbook_more.evaluated
+    monkeypatch.setattr(textbook_more, "evaluated", lambda *words: calls.append(words) or evaluated(*words))
+    surface, pair = exact_surface.surface_of(model, parameters), textbook.ExactDirections(30.0, 0.0, 35.0, 170.0)
+    together = [surface.brdf(pair, channel, mpf("0.55")) for channel in range(6)]
+    assert len(calls) == times
+    for channel, found in enumerate(together):
+        one = {
+            key: {"value": v["value"][channel] if isinstance(v["value"], list) else v["value"]}
+            for key, v in parameters.items()
+        }
+        assert abs(found / exact_surface.surface_of(model, one).brdf(pair, 0, mpf("0.55")) - 1) < 1e-14

@@ -46,7 +46,7 @@ CODE = (
 SHARED = {
     *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".exact_held_out", ".rederived"),
     *(".answer_shape", ".exact_instrument", ".exact_noise", ".exact_exchange", ".exact_two_parts", ".exact_floor"),
-    *(".exact_stray_light", ".exact_ring", ".exact_scattered"),
+    *(".exact_stray_light", ".exact_ring", ".exact_scattered", ".exact_exports", ".exact_followers"),
     *("..errors", "..records", "..data.measurement"),
 }
 
