@@ -12,7 +12,10 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache
+from math import fsum as rounded_once
 from math import hypot
+from math import sqrt as root
+from operator import mul
 from statistics import median
 
 from mpmath import asinh, cbrt, exp, fdot, fsum, matrix, mpf, sqrt
@@ -307,23 +310,26 @@ def _by_stated_errors(data: Readings) -> list[list]:
     return [[mpf(0) if v is None else 1 / mpf(min(max(v, least), MOST_ERROR)) ** 2 for v in row] for row in relative]
 
 
-def alike_neighbours(data: Readings, rows: list[list]) -> tuple[mpf, mpf, mpf]:
-    """Correlation of neighbours, its size in standard deviations, and how many channels say the same."""
-    common = channels_alike(rows)
-    worst, score = mpf(0), mpf(0)
+def alike_neighbours(data: Readings, rows: list[list]) -> tuple[float, float, float]:
+    """Correlation of neighbours, its size in standard deviations, and how many channels say the same.
+
+    From the residuals as doubles, with sums that are rounded once: 1e-15 of a correlation is lost.
+    """
+    rough = [[None if v is None else float(v) for v in row] for row in rows]
+    common, worst, score = channels_alike(rough), 0.0, 0.0
     for order in orders_of_neighbours(data):
         pairs = [
             (a, b)
             for one, other in zip(order[1:], order, strict=False)
-            for a, b in zip(rows[one], rows[other], strict=True)
+            for a, b in zip(rough[one], rough[other], strict=True)
             if a is not None and b is not None
         ]
         if len(pairs) < FEWEST_PAIRS:
             continue
-        power = fsum(a * a + b * b for a, b in pairs) / 2
-        correlation = fdot(pairs) / power if power else mpf(0)
+        power = rounded_once(a * a + b * b for a, b in pairs) / 2
+        correlation = rounded_once(a * b for a, b in pairs) / power if power else 0.0
         if correlation > worst:
-            worst, score = correlation, correlation * sqrt(len(pairs) / common)
+            worst, score = correlation, correlation * root(len(pairs) / common)
     return worst, score, common
 
 
@@ -331,26 +337,25 @@ def compare_discrepancy(told: dict, residuals: list[list], place: str, data: Rea
     """How far neighbours err together, as a flag `discrepancy` tells it."""
     if len(data.angles) > MOST_SAMPLES:
         return
-    few, rows = _with_values(data, residuals)
-    correlation, score, _ = alike_neighbours(few, rows)
+    correlation, score, _ = alike_neighbours(*_with_values(data, residuals))
     found.check(f"{place}.correlation", told["correlation"], correlation)
     found.check(f"{place}.z", told["z"], score)
 
 
-def channels_alike(rows: list[list]):
+def channels_alike(rows: list[list]) -> float:
     """How many channels say the same: Σ r²_cd over the number of channels, less what chance gives."""
     channels = len(rows[0])
     if channels == 1:
-        return mpf(1)
-    columns = [[mpf(0) if row[c] is None else row[c] for row in rows] for c in range(channels)]
-    squares = [[fdot(zip(a, b, strict=True)) for b in columns] for a in columns]
-    total = fsum(
-        squares[a][b] ** 2 / max(squares[a][a] * squares[b][b], SMALLEST**2)
-        for a in range(channels)
-        for b in range(channels)
-    )
-    chance = mpf(channels - 1) / max(len(rows), 1)
-    return min(max(total / channels - chance, mpf(1)), mpf(channels))
+        return 1.0
+    columns = [[0.0 if row[c] is None else row[c] for row in rows] for c in range(channels)]
+    squares = [rounded_once(v * v for v in column) for column in columns]
+    sizes, total = [max(each, float(SMALLEST)) for each in squares], float(sum(each > 0 for each in squares))
+    for a in range(channels):
+        for b in range(a):
+            both = rounded_once(map(mul, columns[a], columns[b]))
+            total += 2 * (both / sizes[a]) * (both / sizes[b])
+    chance = (channels - 1) / max(len(rows), 1)
+    return min(max(total / channels - chance, 1.0), float(channels))
 
 
 @lru_cache(maxsize=4)

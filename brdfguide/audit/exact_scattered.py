@@ -32,7 +32,9 @@ def departures_scattered(data: Readings, ln: list[list]) -> list[list[Departure 
             groups[round(10 * theta_i)].append(row)
     rows = [(row, members) for _, members in sorted(groups.items()) if len(members) >= FEWEST for row in members]
     places = {row: _place(*data.angles[row]) for row, _ in rows}
-    return [_departure(row, members, places, ln) for row, members in rows[:: ceil(len(data.angles) / ASKED)]]
+    rough = {row: (float(x), float(y)) for row, (x, y) in places.items()}
+    asked = rows[:: ceil(len(data.angles) / ASKED)]
+    return [_departure(row, _nearest(row, members, rough), places, ln) for row, members in asked]
 
 
 def _place(theta_i: float, phi_i: float, theta_r: float, phi_r: float):
@@ -41,8 +43,7 @@ def _place(theta_i: float, phi_i: float, theta_r: float, phi_r: float):
     return out * cos(phi), out * abs(sin(phi))
 
 
-def _departure(row: int, members: list[int], places: dict, ln: list[list]) -> list[Departure | None]:
-    near = _nearest(row, members, places)
+def _departure(row: int, near: list[int], places: dict, ln: list[list]) -> list[Departure | None]:
     about = [(places[each][0] - places[row][0], places[each][1] - places[row][1]) for each in near]
     reach = max(max(sqrt(x * x + y * y) for x, y in about), LEAST_REACH)
     weights = _parabola([(x / reach, y / reach) for x, y in about])
@@ -58,13 +59,14 @@ def _departure(row: int, members: list[int], places: dict, ln: list[list]) -> li
     return out
 
 
-def _nearest(row: int, members: list[int], places: dict) -> list[int]:
-    x, y = map(float, places[row])
-    steps = []
-    for rank, each in enumerate(members):
-        if each != row:
-            u, v = map(float, places[each])
-            steps.append((10**DECIMALS * ((u - x) ** 2 + (v - y) ** 2), rank))
+def _nearest(row: int, members: list[int], places: dict[int, tuple[float, float]]) -> list[int]:
+    """Raises NearestUndecided."""
+    x, y = places[row]
+    steps = [
+        (10**DECIMALS * ((places[each][0] - x) ** 2 + (places[each][1] - y) ** 2), rank)
+        for rank, each in enumerate(members)
+        if each != row
+    ]
     order = sorted(steps, key=lambda each: (round(each[0]), each[1]))
     last = round(order[AROUND - 1][0])
     for step, _ in steps:
