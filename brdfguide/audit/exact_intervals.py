@@ -5,8 +5,7 @@
 ρ is the largest correlation between neighbours over four orders of the directions and c how many channels say the same,
 for what all channels share. Where neighbours are alike beyond chance, at least what blocks of them pull a parameter by:
 (JᵀJ)⁻¹ Σ (Jᵀr)(Jᵀr)ᵀ (JᵀJ)⁻¹ (White 1980; Liang and Zeger 1986). J is taken by differences of the laws in the precision
-of the caller, by the parameters themselves: a linear change of coordinates changes no standard error. Sums over values
-are of doubles and rounded once: 1e-16 is lost, times the condition in an inverse, of which 1e-14 is allowed.
+of the caller, by the parameters themselves: a linear change of coordinates changes no standard error.
 """
 
 from collections import defaultdict
@@ -135,13 +134,12 @@ class _Equations:
 
     @cached_property
     def weighed(self) -> tuple[dict, dict]:
-        """By sample and channel: the residual that was made small, as a double, and what makes slopes of f slopes of
-        it."""
+        """By sample and channel: the residual that was made small, and what makes slopes of f slopes of it."""
         residual, factor = {}, {}
         for s, c in self.values:
             r, slope = self._scaled(s, c)
-            weight = sqrt(self.weights[s][c])
-            residual[s, c], factor[s, c] = float(weight * r), weight * slope
+            root = sqrt(self.weights[s][c])
+            residual[s, c], factor[s, c] = root * r, root * slope
         return residual, factor
 
     def _scaled(self, s: int, c: int):
@@ -174,34 +172,33 @@ class _Equations:
         counts and not how sure it is, and near the dark level a residual is surer than that of ln."""
         data = self.part.data
         if data.by_scan:
-            return {(s, c): float(data.share[s]) for s, c in self.values}
+            return {(s, c): mpf(data.share[s]) for s, c in self.values}
         if not any(data.limits):
             return None
-        squares = [float(v) ** 2 for row in self.part.residuals for v in row if v is not None]
-        variance, found = rounded_once(squares) / len(squares), {}
-        floors = list(map(float, self._floors))
+        squares = [v * v for row in self.part.residuals for v in row if v is not None]
+        variance, found = fsum(squares) / len(squares), {}
         for s, c in self.values:
-            square = data.values[s][c] ** 2
-            found[s, c] = (variance * square + data.doubt[c] ** 2) / (square + 4 * floors[c] ** 2)
-        mean = rounded_once(found.values()) / len(found)
-        return {at: max(each / mean, SUREST) for at, each in found.items()}
+            value, floor = mpf(data.values[s][c]), self._floors[c]
+            found[s, c] = (variance * value**2 + mpf(data.doubt[c]) ** 2) / (value**2 + 4 * floor**2)
+        mean = fsum(found.values()) / len(found)
+        return {at: max(each / mean, mpf(SUREST)) for at, each in found.items()}
 
     @cached_property
     def columns(self) -> list[dict]:
-        """d residual/d p of each free number, by sample and channel, as doubles; those of a channel only there."""
+        """d residual/d p of each free number, by sample and channel; those of a channel only there."""
         shared, own = self.keys
         factor = self.weighed[1]
         slopes = {key: _slopes(self.row.surface, key, self.part.data, self.values) for key in (*shared, *own)}
-        out = [{at: float(factor[at] * slopes[key][at]) for at in self.values} for key in shared]
+        out = [{at: factor[at] * slopes[key][at] for at in self.values} for key in shared]
         for channel in self.channels:
             at_channel = [at for at in self.values if at[1] == channel]
-            out += [{at: float(factor[at] * slopes[key][at]) for at in at_channel} for key in own]
+            out += [{at: factor[at] * slopes[key][at] for at in at_channel} for key in own]
         return out
 
     @cached_property
     def inverse(self):
         """(JᵀJ)⁻¹, and a bound of the condition of JᵀJ scaled to ones; None where it has none."""
-        sizes = [root(rounded_once(v * v for v in column.values())) for column in self.columns]
+        sizes = [sqrt(fsum(v * v for v in column.values())) for column in self.columns]
         if not all(sizes):
             return None
         scaled = matrix(len(sizes))
@@ -215,9 +212,9 @@ class _Equations:
         if any(inverse[i, i] <= 0 for i in range(len(sizes))):  # rounding, of columns that are parallel
             return None
         condition = len(sizes) * fsum(inverse[i, i] for i in range(len(sizes)))
-        for i, width in enumerate(sizes):
+        for i, one in enumerate(sizes):
             for j, other in enumerate(sizes):
-                inverse[i, j] /= mpf(width) * other
+                inverse[i, j] /= one * other
         return inverse, condition
 
     def stderrs(self) -> list[tuple[str, int, mpf, float]]:
@@ -228,7 +225,7 @@ class _Equations:
         inverse, condition = self.inverse
         residual = self.weighed[0]
         free = len(self.columns)
-        variance = rounded_once(r * r for r in residual.values()) / max(len(self.values) - free, 1)
+        variance = fsum(r * r for r in residual.values()) / max(len(self.values) - free, 1)
         correlation, score, common = alike_neighbours(self.part.data, self.part.residuals)
         wider = (1 + correlation) / (1 - min(correlation, mpf(MOST_CORRELATED)))
         variances = [wider * variance * each for each in self._spread(inverse)]
@@ -246,7 +243,7 @@ class _Equations:
     def _of_slopes(self, names: list[tuple[str, int]]) -> list[float]:
         """What doubles lose of the slope by each number: much of one that hardly changes f."""
         sizes = [
-            abs(self.row.surface.at(*name)) * root(rounded_once(v * v for v in column.values()) / len(column))
+            abs(self.row.surface.at(*name)) * sqrt(fsum(v * v for v in column.values()) / len(column))
             for name, column in zip(names, self.columns, strict=True)
         ]
         return [float(SLOPE / (each or mpf(1))) for each in sizes]
@@ -262,7 +259,7 @@ class _Equations:
         count, unlike = len(self.columns), self._unlike
         if unlike is None:
             return [inverse[i, i] for i in range(count)]
-        roots = {at: root(each) for at, each in unlike.items()}
+        roots = {at: sqrt(each) for at, each in unlike.items()}
         counted = [{at: roots[at] * v for at, v in column.items()} for column in self.columns]
         middle = matrix(count)
         for i, one in enumerate(counted):
@@ -277,7 +274,7 @@ class _Equations:
         pulls = [{at: residual[at] * v for at, v in column.items()} for column in self.columns]
         most = [mpf(0)] * count
         for blocks in ways_to_cut(self.part.data):
-            sums: dict[int, list] = defaultdict(lambda: [0.0] * count)
+            sums: dict[int, list] = defaultdict(lambda: [mpf(0)] * count)
             for place, column in enumerate(pulls):
                 for (s, _), v in column.items():
                     sums[blocks[s]][place] += v
@@ -288,7 +285,7 @@ class _Equations:
 
 def _product(one: dict, other: dict):
     few, many = (one, other) if len(one) <= len(other) else (other, one)
-    return rounded_once(v * many[at] for at, v in few.items() if at in many)
+    return fdot((v, many[at]) for at, v in few.items() if at in many)
 
 
 def _slopes(surface: ExactSurface, key: str, data: Readings, values: Sequence[tuple[int, int]]) -> dict:
