@@ -185,7 +185,7 @@ def side_of(geom: Geometry, brdf) -> Side:
         return Side("untold", "no incidence is far enough from the normal to tell the mirror side", False)
     both = np.isfinite(ahead) & np.isfinite(behind)
     if not np.any(both):
-        return _of_one_side(np.any(np.isfinite(ahead)), angles, beyond)
+        return _of_one_side(bool(np.any(np.isfinite(ahead))), angles, beyond)
     return _of_two_sides(ahead, behind, falls)
 
 
