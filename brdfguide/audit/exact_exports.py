@@ -9,10 +9,8 @@ from .exact_followers import RowOfAnswer
 from .exact_surface import ANGLES, ExactSurface
 from .rederived import Comparisons
 
-FAINTEST, DARKEST = (
-    mpf("1e-3"),
-    mpf("1e-3"),
-)  # of an incidence's peak, and 1/sr: what is darker than both does not count
+# of an incidence's peak, and 1/sr: what is darker than both does not count
+FAINTEST, DARKEST = mpf("1e-3"), mpf("1e-3")
 
 
 def compare_exports(answer: dict, best: RowOfAnswer | None, data: Readings, found: Comparisons) -> None:
