@@ -24,7 +24,6 @@ NO_BRDF = 1e20  # 1/sr; what files have in place of a value reaches from 1e20 to
 OBLIQUE_DEG, NO_LOBE_DEG = 25.0, 15.0  # from this incidence on, a peak so far before the mirror direction is no lobe
 LOW_DEG = 15.0, 35.0  # incidences at which a mirror lobe lies within a scan, and so
 ABOUT_DEG, BESIDE_DEG = 10.0, (20.0, 45.0)  # brighter about the mirror direction than as far beyond it
-LEAST_FALL = 0.03  # in ln from there to there: of a rough lobe over a bright body half as much again or more (ours)
 STEEP_DEG = 8.0  # below this incidence the two sides are not told apart
 
 
@@ -228,7 +227,7 @@ def _of_two_sides(ahead: np.ndarray, behind: np.ndarray, falls: np.ndarray) -> S
             "untold", "both sides are equally bright: the mirror side cannot be told from the values", False, **numbers
         )
     times = _times(-largest)
-    if (low := falls[both & np.isfinite(falls)]).size and np.mean(low) < LEAST_FALL:
+    if (low := falls[both & np.isfinite(falls)]).size and np.mean(low) < 0:
         return Side(
             "untold",
             f"the other side is {times} times brighter, but not about the mirror direction: matt facets that shade "

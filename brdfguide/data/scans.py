@@ -25,6 +25,7 @@ WIDEST_STEP_DEG = 8.0  # between readings that are interpolated
 LEAST_PEAK = 2.0  # times the scan's median
 LEAST_COMMON = 5  # directions that two scans share
 COPIED = 0.9  # of them that are equal
+UNEVEN_DEG = 0.1  # of the steps of a scan
 LEAST_COPIED = 12  # values of a scan that show whether they are noisy
 LEAST_NOISE = 1e-3  # relative: no goniometer repeats so well, and a law that is tabulated does (ours)
 ROUNDED = 0.3  # standard deviation of rounding, in units of the last digit (of an even spread: 1/√12)
@@ -131,17 +132,20 @@ def _copies(measurement: Measurement) -> dict[float, list[float]]:
     for one, others in alike.items():
         group = [one, *others]
         longest = max(group, key=lambda theta: (len(scans[theta]), -theta))
-        if _noisy(_scan(measurement, measurement.theta_i_groups[longest])[1]):
+        if _noisy(*_scan(measurement, measurement.theta_i_groups[longest])):
             found[longest] = [theta for theta in group if theta != longest]
     return found
 
 
-def _noisy(ln) -> bool:
+def _noisy(angles, ln) -> bool:
     """Whether successive values of a scan scatter: their fourth differences, from which a smooth curve is all but gone,
-    change sign from one to the next."""
+    change sign from one to the next. Those over uneven steps do not count."""
     if len(ln) < LEAST_COPIED:
         return False
-    differences, digits = np.diff(ln, 4), max(map(_digits, np.exp(ln)))
+    even = np.ptp(np.lib.stride_tricks.sliding_window_view(np.diff(angles), 4), axis=1) <= UNEVEN_DEG
+    differences, digits = np.diff(ln, 4)[even], max(map(_digits, np.exp(ln)))
+    if len(differences) < LEAST_COPIED - 4:
+        return False
     scatter = SIGMA_PER_MEDIAN * float(np.median(np.abs(differences))) / FOURTH
     cut = np.clip(differences, -WILD * FOURTH * scatter, WILD * FOURTH * scatter)
     noise = scatter > max(LEAST_NOISE, ABOVE_ROUNDING * ROUNDED * 10.0 ** (1 - digits))

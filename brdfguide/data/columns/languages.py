@@ -195,7 +195,8 @@ ENGLISH_OF = {word: english for table in WORDS.values() for word, english in tab
 PLAIN = SPELT | ENGLISH_OF
 PLAIN_ALONE = PLAIN | SPELT_ALONE  # of a name of nothing but two letters
 _SIGNS = {word: english for table in SIGNS.values() for word, english in table.items()}
-_SIGN = re.compile("|".join(sorted(_SIGNS, key=len, reverse=True)))
+_LONGEST_FIRST = "|".join(sorted(_SIGNS, key=len, reverse=True))
+_SIGN = re.compile(_LONGEST_FIRST)
 _WORD = re.compile(r"[^\W\d_]+")
 _APOSTROPHES = frozenset("'’")
 # of text that is no UTF-8, likeliest first: where none of them makes more known words the first is right

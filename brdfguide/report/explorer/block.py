@@ -70,7 +70,7 @@ def explorer_block(state: dict) -> str:
     script = f"const TWINS = [{','.join(twins)}];\n{_part('script.js')}"
     if "</script" in script.lower():
         raise InputError("the page's script would end before its time")
-    noscript = "<noscript>The explorer needs JavaScript; the file itself is all that it needs besides.</noscript>"
+    noscript = "<noscript>The explorer needs JavaScript, and nothing besides.</noscript>"
     return (
         f"<style>{_part('style.css')}</style>\n{BODY}\n{noscript}"
         f'<script type="application/json" id="explorer-state">{data}</script>\n<script>{script}</script>'
@@ -83,4 +83,9 @@ def _part(name: str) -> str:
     if not name.endswith(".js"):
         return text
     parts = STRING.split(text)  # every second one is a string
-    return "".join(part if place % 2 else LINES.sub("", SIGNS.sub(r"\1", part)) for place, part in enumerate(parts))
+    return "".join(part if place % 2 else _close(part) for place, part in enumerate(parts))
+
+
+def _close(text: str) -> str:
+    """Without spaces about signs; twice, since of two signs with a space between them the second is passed over."""
+    return LINES.sub("", SIGNS.sub(r"\1", SIGNS.sub(r"\1", text)))

@@ -180,6 +180,9 @@ void main() {{
 }}"""
 
 
+SIGNS = re.compile(r"(?<! ) *([=+*/<>(),;{}?:&|]|(?<!-)-(?!-)) *")
+
+
 def unindented(text: str) -> str:
     """Without indentation and lines of comment: GLSL, JavaScript and CSS need neither."""
     lines = (line.strip() for line in text.split("\n"))
@@ -188,7 +191,8 @@ def unindented(text: str) -> str:
 
 def squeezed(text: str) -> str:
     """Without spaces about signs, in text that holds no strings."""
-    return re.sub(r"(?<! ) *([=+*/<>(),;{}?:&|]|(?<!-)-(?!-)) *", r"\1", unindented(text))
+    once = SIGNS.sub(r"\1", unindented(text))
+    return SIGNS.sub(r"\1", once)  # of two signs with a space between them the second was passed over
 
 
 def sources() -> dict[str, str]:
