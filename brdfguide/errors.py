@@ -88,6 +88,11 @@ def choices(kind: str, found: str, known) -> InputError:
     return InputError(f"no {kind} called '{short(found)}'; {hint}there are: {', '.join(known)}")
 
 
+def would_be_lost(name: str) -> InputError:
+    """The error for a file to write that is read as well; `name` with the option that names it."""
+    return InputError(f"{name}: it is read as well, and would be lost; write into another file")
+
+
 def no_such_file(path, name: str) -> InputError:
     """The error for a file that is not there, with the nearest names in the same folder; for a link to nothing what it
     points to."""

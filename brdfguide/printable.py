@@ -14,6 +14,7 @@ MOST_OF_A_COMMENT, BYTES_OF_A_COMMENT = 1800, 1900  # of a line of it, such as t
 MOST_LINES = 60  # of an error
 MOST_OF_A_NAME = 80  # letters of an identifier, and of what is quoted in a sentence
 LEAST_PERCENT = 1e-3  # what is less is printed as none
+LEAST_NOISE = 1e-4  # of values, below which it is told as less than this
 MOST_BYTES = 255  # of a file's name, where file systems end
 SHORT = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 # Words of the languages that we write; a name may be one of them, an identifier may not.

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import exporters, printable
-from ..errors import InputError, choices
+from ..errors import InputError, choices, would_be_lost
 from ..face.pictures import ANGLE, draw_fit, write_page
 from ..files import folder as make_folder
 from ..files import picture_kind, write_whole
@@ -115,7 +115,7 @@ def _read(label: str) -> set[str]:
 def _spare(place: Path, read: set[str]) -> None:
     """Raises InputError where a file is among those that are read, and would be lost."""
     if os.path.realpath(place) in read:
-        raise InputError(f"{place}: it is read as well, and would be lost; write into another file")
+        raise would_be_lost(str(place))
 
 
 def make(product: Product, path: Path, answer: Any, file: Path, fitted: dict, command: str) -> None:

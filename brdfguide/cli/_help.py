@@ -6,7 +6,7 @@ from math import isfinite
 
 from typer.core import TyperCommand, TyperGroup
 
-from ..errors import InputError
+from ..errors import InputError, would_be_lost
 
 GROUPS = {
     "Answers": ("recommend", "fit", "plan", "roughness"),
@@ -101,7 +101,7 @@ def _spare_what_is_read(given, parameters) -> None:
     read = [word for each in parameters if each.name not in WRITTEN for word in _files(each, given)]
     for option, path in written:
         if any(os.path.samefile(path, each) for each in read):
-            raise InputError(f"{option} {path}: it is read as well, and would be lost; write into another file")
+            raise would_be_lost(f"{option} {path}")
 
 
 def _files(parameter, given) -> list[str]:

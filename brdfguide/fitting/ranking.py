@@ -16,6 +16,7 @@ from ..models import cost
 from ..numerics import pareto
 from ..physics import seen
 from ..physics.geometry import Geometry
+from ..printable import LEAST_NOISE
 from ..records import dataclass
 from . import appearance, prepared, weights
 from .choosing import recommending
@@ -29,7 +30,6 @@ from .residuals import NO_ERROR, rms
 REPEATS = 7  # of a timing, the least of which counts
 TIMED_SAMPLES = 2048  # directions of a timing, repeated where there are fewer: a long batch that fits the cache
 IN_COMMON = 2.0  # times the scatter between neighbours, from which a stated error is one that they share (ours)
-LEAST_NOISE = 1e-4  # of values, below which it is told as less than this
 SAME = 1e-5  # times the best error: alike to the digits that order them
 
 

@@ -323,9 +323,8 @@ def _numbers(array, values) -> np.ndarray:
     values = np.asarray(values)
     numbers = values.astype(float)
     marks = [array.attrs.get(key, []) for key in ("_FillValue", "missing_value")]
-    marks += [
-        getattr(array, "fill_value", None) or []
-    ]  # of zarr, which has it in place of _FillValue; 0 if none was set
+    # zarr has its own in place of _FillValue, 0 where none was set
+    marks.append(getattr(array, "fill_value", None) or [])
     for mark in np.concatenate([np.ravel(each) for each in marks]):
         numbers[values == mark] = np.nan
     scale, offset = (_real(key, array.attrs.get(key, neutral)) for key, neutral in PACKED)

@@ -6,7 +6,7 @@ from html import escape
 from importlib.resources import files
 
 from ...errors import InputError
-from .shaders import unindented
+from .shaders import closed_up, unindented
 
 STRING = re.compile(r"('(?:[^'\\\n]|\\.)*')")
 SIGNS = re.compile(r"(?<! ) *([=*<>(),;{}?:&|]|(?<!\+)(?<!\+ )\+(?! *\+)|(?<!-)(?<!- )-(?! *-)) *")
@@ -83,9 +83,4 @@ def _part(name: str) -> str:
     if not name.endswith(".js"):
         return text
     parts = STRING.split(text)  # every second one is a string
-    return "".join(part if place % 2 else _close(part) for place, part in enumerate(parts))
-
-
-def _close(text: str) -> str:
-    """Without spaces about signs; twice, since of two signs with a space between them the second is passed over."""
-    return LINES.sub("", SIGNS.sub(r"\1", SIGNS.sub(r"\1", text)))
+    return "".join(part if place % 2 else LINES.sub("", closed_up(SIGNS, part)) for place, part in enumerate(parts))

@@ -191,8 +191,12 @@ def unindented(text: str) -> str:
 
 def squeezed(text: str) -> str:
     """Without spaces about signs, in text that holds no strings."""
-    once = SIGNS.sub(r"\1", unindented(text))
-    return SIGNS.sub(r"\1", once)  # of two signs with a space between them the second was passed over
+    return closed_up(SIGNS, unindented(text))
+
+
+def closed_up(signs: re.Pattern, text: str) -> str:
+    """Without spaces about signs; twice, since of two signs with a space between them the second is passed over."""
+    return signs.sub(r"\1", signs.sub(r"\1", text))
 
 
 def sources() -> dict[str, str]:

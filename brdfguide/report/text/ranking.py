@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...printable import off_words, off_words_of
+from ...printable import LEAST_NOISE, off_words, off_words_of
 from .floor import floor_text
 from .folding import folded, wrapped_text
 from .off_plane import off_plane_text
@@ -139,7 +139,9 @@ def noise_line(document: dict) -> str:
     noise, values = document["noise"], document["data"]["values"]
     if noise["relative"] is None:
         return ""
-    share = off_words(100 * noise["relative"]) if noise["relative"] > 1e-4 else "less than 0.01 %"
+    share = (
+        off_words(100 * noise["relative"]) if noise["relative"] > LEAST_NOISE else f"less than {100 * LEAST_NOISE:g} %"
+    )
     text = f"\nsingle values scatter by {share}"
     if any(noise.get("absolute_per_sr") or ()):
         text += f", and by {span_text(noise['absolute_per_sr'])}/sr where they are dim"
