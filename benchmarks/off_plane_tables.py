@@ -26,6 +26,7 @@ import numpy as np
 from benchmarks.given_tables import DATA, THETA_MAX_DEG, nearest_rows, tables
 from brdfguide.data.measurement import Measurement
 from brdfguide.face.functions import fit
+from brdfguide.fitting import missed
 from brdfguide.fitting import off_plane_price as pricing
 from brdfguide.fitting.job import Job, read_for_fit
 from brdfguide.fitting.ranked import Ranking
@@ -173,7 +174,7 @@ def choose(made: list[Case]) -> None:
     table, off = np.array([each.table for each in made]), {}
     for values in itertools.product(*CHOICES.values()):
         for key, value in zip(CHOICES, values, strict=True):
-            setattr(pricing, key, value)
+            setattr(missed, key, value)
         told = [pricing.off_plane_price(each.ranking, each.measurement) for each in made]
         off[values] = np.array([
             abs(np.log(price.rms_ln / case.below)) if price else np.nan

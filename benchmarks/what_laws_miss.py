@@ -19,7 +19,7 @@ import numpy as np
 from benchmarks.given_tables import tables
 from brdfguide import models
 from brdfguide.fitting import fit as fitting
-from brdfguide.fitting.off_plane_price import WIDTHS, places_of_missed
+from brdfguide.fitting.missed import WIDTHS, places_of_missed
 from brdfguide.numerics.gaussian_process import Places, weighed
 
 LAWS = ("lambertian+ggx", "lambertian+student-t", "lambertian+beckmann", "oren-nayar+ggx")

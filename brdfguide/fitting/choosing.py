@@ -2,7 +2,7 @@
 close enough to it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import hypot
 
@@ -15,6 +15,7 @@ from ..finding import Finding
 from ..flags import Effect
 from ..physics import seen
 from . import appearance
+from .missed import likelihoods
 from .plausible import foreseeing, plausible
 from .ranked import REAL, Ranking, Row
 
@@ -23,19 +24,21 @@ ALLOWED_SHARE = 0.25  # of the best error, where that is more: the tolerance tha
 DIFFERENT_SHARE = 0.5  # the same where the best is seen to be clearly different: the eye is then asked first (ours)
 SIMPLER = 0.9  # times the fewest numbers of those that tie, up to which another is simpler, as closeness asks (ours)
 CHEAPER = 0.8  # times the operations of another, from which on a model is called cheaper
+AS_LIKELY = 0.1  # times the probability of the most probable, from which on another is about as probable (ours)
 MUCH_LESS = 1.5  # times the error of another with as few numbers, from which on the other is to be preferred (ours)
 MUCH_CHEAPER = 4.0  # times fewer operations, from which on such a one may be recommended all the same (ours)
 
 
 def recommending(ranking: Ranking, measurement: Measurement) -> Ranking:
     """The same with the model to use, why, which come close enough, and how good the best looks."""
-    good = trusted(ranking.rows)
+    likely = likelihoods(trusted(ranking.rows), measurement)
+    good = _best_first(ranking.rows, likely)
     best = good[0]
     if ranking.close == "look" and _is_stray_light(best):
         ranking = replace(ranking, close="none")
     grain = best.fit.model.turns and turned_grain(measurement)
     rows = tuple(replace(row, close=_is_close(row, good, ranking.close, grain)) for row in ranking.rows)
-    pick, because = picked(rows, ranking.close, ranking.kind)
+    pick, because = picked(rows, ranking.close, ranking.kind, likely)
     doubts = tuple(each for each in ranking.warnings if each.effect is not Effect.OF_LOOKS)
     looks = (_no_look(rows), appearance.too_coarse(best.fit.surface, measurement))
     return replace(
@@ -87,7 +90,9 @@ def check_close(close: str) -> None:
         percent_of(close)
 
 
-def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) -> tuple[Row, str]:
+def picked(
+    rows: Sequence[Row], close: str = "none", kind: str | None = None, likely: Mapping[int, float] | None = None
+) -> tuple[Row, str]:
     """The cheapest of those that tie with the best trusted one or come close enough to it, and the reason in words.
 
     Of several that cost alike one that ties, and the simplest. Where closeness does not count, the simplest of those
@@ -95,13 +100,17 @@ def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) ->
     closer than the best. Of those that tie none that is
     systematically off and errs more at angles left out than another; none that what is known of the surface
     (`plausible`; its `kind`) rules out; none that is merely cheaper than another with as few numbers and much less
-    error (`_outdone`).
+    error (`_outdone`). Of few directions the most probable is the best (`likely`, `missed.likelihoods`), those about as
+    probable tie with it, and nothing else comes close: neither least error nor the eye says much of the rest.
     """
-    good = trusted(rows)
+    good = _best_first(rows, likely)
     best = good[0]
-    equal = [row for row in good if row.tied] if best.tied else [best]
-    near = [row for row in good if row.close and row not in equal]
-    aside = _passed(rows[: rows.index(best)])
+    if likely:
+        equal, near = [row for row in good if likely[id(row.fit)] >= AS_LIKELY * likely[id(best.fit)]], list[Row]()
+    else:
+        equal = [row for row in good if row.tied] if best.tied else [best]
+        near = [row for row in good if row.close and row not in equal]
+    aside = _passed([row for row in rows[: rows.index(best)] if row not in good])
     if close == "look":
         nearest = min((best, *near), key=lambda row: row.seen)
         farther = [row for row in equal if _seen_farther(row, nearest)]
@@ -122,19 +131,44 @@ def picked(rows: Sequence[Row], close: str = "none", kind: str | None = None) ->
         cheap = [row for row in (*equal, *near) if CHEAPER * row.work <= least]
         pick = min(cheap, key=lambda row: (row not in equal, row.fit.free, row.rms_ln))
     aside += _but_outdone([row for row in (*outdone, *merely_cheaper) if row.work < CHEAPER * pick.work], pick)
+    if likely:
+        return pick, _as_likely(pick, best, equal, good) + aside
+    return pick, _because(pick, best, equal, near, good, close) + aside
+
+
+def _because(pick: Row, best: Row, equal: Sequence[Row], near: Sequence[Row], good: Sequence[Row], close: str) -> str:
+    """Why a row is recommended: by its error or by what it saves."""
     if pick in near:
-        return pick, f"{_close_words(pick, best, close)}{_gain(pick, best)}{aside}"
+        return f"{_close_words(pick, best, close)}{_gain(pick, best)}"
     if pick is not best:
-        return pick, f"cannot be told from {best.fit.name} by these data{_gain(pick, best)}{aside}"
+        return f"cannot be told from {best.fit.name} by these data{_gain(pick, best)}"
     if len(equal) > 1:
         others = ", ".join(row.fit.name for row in equal if row is not pick)
-        return pick, f"least error, and the simplest of those that cannot be told apart by these data ({others}){aside}"
+        return f"least error, and the simplest of those that cannot be told apart by these data ({others})"
     behind = [row for row in good if row is not pick]
     if not behind:
-        return pick, f"the only candidate{aside}"
+        return "the only candidate"
     gap = behind[0].rms_ln - pick.rms_ln
     alike = f", and the cheapest of {len(near) + 1} that come close enough" if near else ""
-    return pick, f"least error{alike}; {behind[0].fit.name} follows {gap:.2g} behind in rms ln{aside}"
+    return f"least error{alike}; {behind[0].fit.name} follows {gap:.2g} behind in rms ln"
+
+
+def _as_likely(pick: Row, best: Row, equal: Sequence[Row], good: Sequence[Row]) -> str:
+    """Why a row is recommended where so few directions were measured that the most probable law is the best."""
+    less = [row.fit.name for row in good if row.rms_ln < pick.rms_ln and row not in equal]
+    verb = "has less error but is" if len(less) == 1 else "have less error but are"
+    but = f"; {', '.join(less)} {verb} less probable, as so few directions say little of more numbers" if less else ""
+    if pick is not best:
+        return f"about as probable as {best.fit.name} by so few directions{_gain(pick, best)}{but}"
+    others = ", ".join(row.fit.name for row in equal if row is not pick)
+    simplest = f", and the simplest of those that are about as probable ({others})" if others else ""
+    return f"the most probable by so few directions{simplest}{but}"
+
+
+def _best_first(rows: Sequence[Row], likely: Mapping[int, float] | None) -> list[Row]:
+    """Those that can be trusted, by error or, where that is known, by how probable they are."""
+    good = trusted(rows)
+    return sorted(good, key=lambda row: -likely[id(row.fit)]) if likely else good
 
 
 def trusted(rows: Sequence[Row]) -> list[Row]:

@@ -42,7 +42,7 @@ def held_out(fits: Sequence[Fit], used: Measurement, options: FitOptions = FitOp
     A group none of whose values is clear of the dark level has no error on a scale of ratios: it helps to fit the
     others and is not held out itself. `used` is what `thinned` leaves of the measurement that the fits were made to.
     """
-    return held_out_from([(fit.model, thinned_surface(fit).values) for fit in fits], used, options)
+    return held_out_from([(fit.model, fit.thinned.values) for fit in fits], used, options)
 
 
 def held_out_from(
@@ -187,13 +187,6 @@ def thinned_rows(measurement: Measurement) -> np.ndarray:
         return starting_grid.spread_rows(measurement, SAMPLES)
     known = np.flatnonzero(measurement.has_value)
     return known[starting_grid.spread_rows(measurement[measurement.has_value], SAMPLES)]
-
-
-def thinned_surface(fit: Fit) -> Surface:
-    """The fitted surface in the channels that `thinned` leaves of a measurement."""
-    surface = fit.surface
-    channels = few_channels(len(surface.channels))
-    return surface if len(channels) == len(surface.channels) else surface.of_channels(channels)
 
 
 @dataclass(frozen=True, eq=False)

@@ -70,6 +70,13 @@ class Fit:
         doubts = f"; {', '.join(each.printed for each in self.warnings)}" if self.warnings else ""
         return f"{self.name}: rms ln {self.rms_ln:.4f}, {self.free} numbers fitted{doubts}"
 
+    @property
+    def thinned(self) -> Surface:
+        """The fitted surface in the few channels that stand for all."""
+        channels = few_channels(len(self.surface.channels))
+        same = len(channels) == len(self.surface.channels)
+        return self.surface if same else self.surface.of_channels(channels)
+
     def residuals_on(self, measurement: Measurement) -> np.ndarray:
         """`residuals` on all directions of the measurement that was fitted, or of a part of it."""
         known = measurement if self.missed is None else expecting(measurement, self.missed)

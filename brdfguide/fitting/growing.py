@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..data import noise
 from ..data.measurement import Measurement
 from ..models.candidates import candidate_label, containing
 from ..models.extensions import Extension, edges, extensions, is_metallic, revived
@@ -19,6 +20,7 @@ from .diagnostics import standard_errors
 from .fit_options import FitOptions
 from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
+from .ranking import stated_noise
 from .residuals import NO_ERROR, ln_residuals, rms
 
 MOST_STEPS = 4
@@ -29,6 +31,8 @@ FOLLOWED = 3  # candidates of a step whose held-out error is formed
 PEAK, SHOULDER = 0.5, 0.05  # of the value in the mirror direction, down to which a lobe has its peak and its shoulder
 LOW_DEG, HIGH_DEG = 30.0, 60.0  # incidence
 TOWARD_LIGHT_DEG = 15.0
+BEYOND = 3.0  # times the noise of single values, from which on a misfit is none (ours)
+NOISY = 0.1  # ln: noise of single values, where nothing tells it, beyond which a misfit is something missed (ours)
 NOISE = "what it leaves is noise"
 
 
@@ -193,7 +197,9 @@ def _shown(search: Search, data: Prepared) -> str:
     surface, residuals = _residuals(search, data)
     few = _few(data)
     correlation, score = standard_errors.serial_correlation(residuals, standard_errors.orderings(few))
-    if rms(residuals) < NO_ERROR or not standard_errors.discrepancy(residuals, correlation, score):
+    if rms(residuals) < NO_ERROR:
+        return ""
+    if not standard_errors.discrepancy(residuals, correlation, score) and _may_be_noise(rms(residuals), few):
         return ""
     known = np.isfinite(residuals)
     mean = np.where(known, residuals, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
@@ -211,6 +217,15 @@ def _shown(search: Search, data: Prepared) -> str:
     means = {name: (float(np.mean(mean[rows])), np.count_nonzero(rows)) for name, rows in zones.items() if rows.any()}
     name, (size, _) = max(means.items(), key=lambda each: each[1][0] ** 2 * np.sqrt(each[1][1]))
     return f"{name} is {_percent(size)}"
+
+
+def _may_be_noise(error: float, few: Measurement) -> bool:
+    """Whether single values may scatter so much. Of directions far apart the misfit of none is like its neighbour's, so
+    that its size has to tell."""
+    relative = noise.estimated_noise(few)
+    stated = stated_noise(few)
+    known = relative.relative is not None or stated > 0
+    return error <= (BEYOND * max(relative.expected(few.brdf, few.clear), stated) if known else NOISY)
 
 
 def _residuals(search: Search, data: Prepared) -> tuple[Surface, np.ndarray]:

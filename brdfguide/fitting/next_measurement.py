@@ -11,7 +11,7 @@ from ..data.measurement import SMALLEST, Measurement
 from ..physics.aperture import Instrument
 from ..physics.geometry import Geometry, rows
 from ..records import dataclass
-from .cross_validation import thinned, thinned_surface
+from .cross_validation import thinned
 from .fit import Fit
 from .layout import Layout
 from .objective import Misfit, metric
@@ -150,7 +150,7 @@ class Knowledge:
 
 def knowledge(fit: Fit, measurement: Measurement, there: Instrument) -> Knowledge:
     """What `measurement`, thinned, leaves open of a fit's parameters, and what values at `there` would tell."""
-    surface = thinned_surface(fit)
+    surface = fit.thinned
     layout = Layout(fit.model, measurement.brdf.shape[1])
     noise = max(float(np.sqrt(np.nanmean(fit.residuals**2))), 1e-4)
     geom = there.geom.at(measurement.geom.wavelength)
@@ -205,7 +205,7 @@ def _dense(shared, per_channel) -> np.ndarray:
 
 def difference_at(one: Fit, other: Fit, there: Instrument) -> np.ndarray:
     """|ln ratio| of two fitted models at each direction, rms over the channels that `thinned` leaves."""
-    logs = [np.log(np.maximum(reading(thinned_surface(fit), there), SMALLEST)) for fit in (one, other)]
+    logs = [np.log(np.maximum(reading(fit.thinned, there), SMALLEST)) for fit in (one, other)]
     return np.sqrt(np.mean((logs[0] - logs[1]) ** 2, axis=1))
 
 
