@@ -31,7 +31,7 @@ MUCH_CHEAPER = 4.0  # times fewer operations, from which on such a one may be re
 
 def recommending(ranking: Ranking, measurement: Measurement) -> Ranking:
     """The same with the model to use, why, which come close enough, and how good the best looks."""
-    likely = likelihoods(trusted(ranking.rows), measurement)
+    likely = likelihoods(trusted(ranking.rows), measurement) if ranking.metric == "ln" else None
     good = _best_first(ranking.rows, likely)
     best = good[0]
     if ranking.close == "look" and _is_stray_light(best):
@@ -101,15 +101,16 @@ def picked(
     systematically off and errs more at angles left out than another; none that what is known of the surface
     (`plausible`; its `kind`) rules out; none that is merely cheaper than another with as few numbers and much less
     error (`_outdone`). Of few directions the most probable is the best (`likely`, `missed.likelihoods`), those about as
-    probable tie with it, and nothing else comes close: neither least error nor the eye says much of the rest.
+    probable tie with it, and nothing else comes close to the eye: neither that nor least error says much of the rest.
     """
     good = _best_first(rows, likely)
     best = good[0]
     if likely:
-        equal, near = [row for row in good if likely[id(row.fit)] >= AS_LIKELY * likely[id(best.fit)]], list[Row]()
+        least = AS_LIKELY * likely[id(best.fit)]
+        equal = [row for row in trusted(rows) if likely[id(row.fit)] >= least]
     else:
         equal = [row for row in good if row.tied] if best.tied else [best]
-        near = [row for row in good if row.close and row not in equal]
+    near = [row for row in good if row.close and row not in equal and not (likely and close == "look")]
     aside = _passed([row for row in rows[: rows.index(best)] if row not in good])
     if close == "look":
         nearest = min((best, *near), key=lambda row: row.seen)
@@ -131,7 +132,7 @@ def picked(
         cheap = [row for row in (*equal, *near) if CHEAPER * row.work <= least]
         pick = min(cheap, key=lambda row: (row not in equal, row.fit.free, row.rms_ln))
     aside += _but_outdone([row for row in (*outdone, *merely_cheaper) if row.work < CHEAPER * pick.work], pick)
-    if likely:
+    if likely and pick not in near:
         return pick, _as_likely(pick, best, equal, good) + aside
     return pick, _because(pick, best, equal, near, good, close) + aside
 
@@ -159,7 +160,8 @@ def _as_likely(pick: Row, best: Row, equal: Sequence[Row], good: Sequence[Row]) 
     verb = "has less error but is" if len(less) == 1 else "have less error but are"
     but = f"; {', '.join(less)} {verb} less probable, as so few directions say little of more numbers" if less else ""
     if pick is not best:
-        return f"about as probable as {best.fit.name} by so few directions{_gain(pick, best)}{but}"
+        first = "least error, and " if pick is min(good, key=lambda row: row.rms_ln) else ""
+        return f"{first}about as probable as {best.fit.name} by so few directions{_gain(pick, best)}{but}"
     others = ", ".join(row.fit.name for row in equal if row is not pick)
     simplest = f", and the simplest of those that are about as probable ({others})" if others else ""
     return f"the most probable by so few directions{simplest}{but}"

@@ -85,3 +85,10 @@ def test_what_is_stated_as_noise_does_not_grow():
     data = synthetic.surface(GGX, SIXTEEN, PLASTIC, noise=0.2, seed=2)
     noisy = replace(data, stderr=0.2 * data.brdf)
     assert [step.because for step in fit(noisy, timing=False, anyway=True).ranking.grown] == ["what it leaves is noise"]
+
+
+def test_another_metric_and_a_percentage_are_heeded(few):
+    asked = choosing.recommending(replace(few.ranking, metric="cube-root"), few.measurement)
+    assert "probable" not in asked.because
+    near = choosing.recommending(replace(few.ranking, close="100%"), few.measurement)
+    assert any(row.close for row in near.rows) and near.recommended.fit.free <= few.ranking.recommended.fit.free
