@@ -231,21 +231,28 @@ def _folds(angles) -> list[np.ndarray]:
 def _compared_incidences(measurement: Measurement) -> tuple[float, float] | None:
     """The lowest and the highest incidence [deg] with a value near the mirror direction; with any value, where there
     are no two such; None where there are no two at all."""
-    channel = measurement.brdf.shape[1] // 2
-    seen = [
-        theta
-        for theta, rows in measurement.incidences.items()
-        if theta < MOST_GROWN and measurement.clear[rows, channel].any()
-    ]
-
-    def reads_mirror(theta):
-        return _peaks(measurement, theta, channel)[0] is not None
-
-    low = next(filter(reads_mirror, sorted(seen)), None)
-    high = next(filter(reads_mirror, sorted(seen, reverse=True)), None)
+    seen, low = _incidences_with_values(measurement), mirror_from_deg(measurement)
+    high = next((theta for theta in reversed(seen) if _reads_mirror(measurement, theta)), None)
     if low is None or high is None or not low < high:
-        return (min(seen), max(seen)) if len(seen) > 1 else None
+        return (seen[0], seen[-1]) if len(seen) > 1 else None
     return low, high
+
+
+@formed
+def mirror_from_deg(measurement: Measurement) -> float | None:
+    """The lowest incidence [deg] with a value near the mirror direction; None where there is none."""
+    seen = _incidences_with_values(measurement)
+    return next((theta for theta in seen if _reads_mirror(measurement, theta)), None)
+
+
+def _incidences_with_values(measurement: Measurement) -> list[float]:
+    """In ascending order [deg]."""
+    clear = measurement.clear[:, measurement.brdf.shape[1] // 2]
+    return sorted(theta for theta, rows in measurement.incidences.items() if theta < MOST_GROWN and clear[rows].any())
+
+
+def _reads_mirror(measurement: Measurement, theta: float) -> bool:
+    return _peaks(measurement, theta, measurement.brdf.shape[1] // 2)[0] is not None
 
 
 def _peaks(measurement: Measurement, theta: float, channel: int) -> tuple[Geometry | None, float, float]:
@@ -277,9 +284,9 @@ def validated(
         (held.rms_ln for row, held in zip(ranking.rows, helds, strict=True) if held and _lobes(row.fit) < 2),
         default=np.inf,
     )
-    rows = []
+    rows, lowest = [], mirror_from_deg(measurement)
     for row, held in zip(ranking.rows, helds, strict=True):
         warning = imitation(row.fit, held, single)
-        warnings = row.warnings + ((warning,) if warning else ())
-        rows.append(replace(row, held_out=held, growth=growth(row.fit, measurement), warnings=warnings))
+        warnings, grown = row.warnings + ((warning,) if warning else ()), growth(row.fit, measurement)
+        rows.append(replace(row, held_out=held, growth=grown, mirror_from_deg=lowest, warnings=warnings))
     return recommending(replace(ranking, rows=tuple(rows)), measurement)

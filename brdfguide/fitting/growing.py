@@ -2,7 +2,7 @@
 that it is no better.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from . import cross_validation
 from .coarse_search import Given, Search, Sought, free_count, search_all
 from .diagnostics import standard_errors
 from .fit_options import FitOptions
+from .plausible import lobe_too_bright
 from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
 from .ranking import stated_noise
@@ -57,15 +58,19 @@ def grow(
 ) -> tuple[list[Search], tuple[Step, ...]]:
     """What grew from the best of `searches`, for a surface of this kind (None: not known), and the steps.
 
-    Nothing grows where no candidate can, where there is one incidence only, or where what the best leaves is noise.
+    Nothing grows where no candidate can, where there is one incidence only, or where what the best leaves is noise; but
+    beside one that is as bright as no dielectric a metal with an edge of its own.
     """
     known = {candidate_label(each.layout.model): each for each in searches}
     used, root = cross_validation.thinned(data.whole), _root(searches, data)
-    if not root or not cross_validation.can_hold_out(used):
+    if not root:
         return [], ()
+    if not cross_validation.can_hold_out(used):
+        return _where_nothing_grows(searches, data, options, kind), ()
     shown, steps = _shown(root, data), list[Step]()
     if not shown:
-        return [], (Step(candidate_label(root.layout.model), root.rms, None, shown, because=NOISE),)
+        step = Step(candidate_label(root.layout.model), root.rms, None, shown, because=NOISE)
+        return _where_nothing_grows(searches, data, options, kind), (step,)
     held = cross_validation.held_out_from([(root.layout.model, root.values)], used, options)[0]
     assert held is not None
     state, taken = State(root, held.rms_ln), _metal_with_edge(root, searches, data, options)
@@ -96,17 +101,36 @@ def _root(searches: Iterable[Search], data: Prepared) -> Search | None:
 def _metal_with_edge(root: Search, searches: Iterable[Search], data: Prepared, options: FitOptions) -> list[Search]:
     """Beside a root with a body the best metal, where it comes near, with an edge of its own: a metal of n = 1 has a
     steeper rise toward grazing than most, which a body or a height would be taken for."""
+    return [] if is_metallic(root.layout.model) else _edges_near(root, searches, data, options)
+
+
+def _edges_near(best: Search, searches: Iterable[Search], data: Prepared, options: FitOptions) -> list[Search]:
+    """The best metal with an edge of its own, where it comes near the best of all and gains by it."""
     metals = [each for each in searches if is_metallic(each.layout.model)]
     least = min((each.rms for each in metals), default=0.0)
     near = [each for each in metals if each.rms <= ALIKE * least]
-    best = min(near, key=lambda each: (each.layout.count, each.rms), default=None)
-    if best is None or best is root or is_metallic(root.layout.model) or best.rms > MOST_BEHIND * root.rms:
+    metal = min(near, key=lambda each: (each.layout.count, each.rms), default=None)
+    if metal is None or metal.rms > MOST_BEHIND * best.rms:
         return []
     sought = [
-        Sought(each.model, Given(each.starts, each.levels, best.rms)) for each in edges(best.layout.model, best.values)
+        Sought(each.model, Given(each.starts, each.levels, metal.rms))
+        for each in edges(metal.layout.model, metal.values)
     ]
     tried = search_all(sought, data, options)
-    return [each for each in tried if each.rms < BETTER * best.rms]
+    return [each for each in tried if each.rms < BETTER * metal.rms]
+
+
+def _where_nothing_grows(
+    searches: Sequence[Search], data: Prepared, options: FitOptions, kind: str | None
+) -> list[Search]:
+    """A metal with an edge of its own, where a metal of n = 1 leaves more than noise or something else is as bright as
+    no dielectric and nobody says that it is one."""
+    best, lowest = min(searches, key=lambda each: each.rms), cross_validation.mirror_from_deg(data.whole)
+    if is_metallic(best.layout.model):
+        wanted = bool(_shown(best, data))
+    else:
+        wanted = lowest is not None and lobe_too_bright(best.layout.model, best.values, lowest) is not None
+    return _edges_near(best, searches, data, options) if wanted and kind != "dielectric" else []
 
 
 def _can_grow(search: Search) -> bool:

@@ -1,20 +1,23 @@
 """What is known of a surface besides the error of fits: of several that the data leave equal, which it rules out."""
 
-from collections.abc import Sequence
-from math import isfinite, log
+from collections.abc import Mapping, Sequence
+from math import isfinite, log, sqrt
 
 import numpy as np
 
 from ..data.metal_or_dielectric import LEAST_METAL, LOW_DEG, MOST_DIELECTRIC
 from ..flags import Effect
-from ..models import Model
+from ..models import Composite, Model
 from ..physics import fresnel
+from ..records import dataclass
 from .ranked import BETTER, Row
 
 MOST_NAMED = 3  # in an aside
 AT_BOUND = "a parameter at its bound"
 NEAR_GROWTH = log(1.5)  # |ln| of a model's rise in the mirror direction over the data's, up to which it is near (ours)
 FAR_GROWTH = log(2.5)  # the same, from which on it is far (ours)
+_BRIGHTEST = float(fresnel.index_from_f0(MOST_DIELECTRIC)), 0.0  # n and k of a dielectric
+_DARKEST = 1.0, 2 * sqrt(LEAST_METAL / (1 - LEAST_METAL))  # of a metal, as those are fitted whose edge is not told
 
 
 def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Row], str]:
@@ -31,7 +34,7 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
             rows, aside = _sifted(rows, _inside, aside, AT_BOUND)
         rows, aside = _sifted(rows, _has_fresnel, aside, "no Fresnel factor, which a dielectric's lobe has")
     elif kind is None and too_bright_for_a_dielectric(best) is not None:
-        rows, aside = _sifted(rows, is_metal, aside, "a lobe as bright near the normal as no dielectric's surface")
+        rows, aside = _sifted(rows, is_metal, aside, "a lobe as bright as no dielectric's surface")
     elif kind is None:
         rows, aside = _sifted(
             rows,
@@ -75,21 +78,43 @@ def is_metal(row: Row) -> bool:
     return not bodies and any(key.endswith(".k") for key in row.fit.model.free)
 
 
-def too_bright_for_a_dielectric(row: Row) -> float | None:
-    """What the lobes of one that is no metal return of light at the normal, where no dielectric's surface can; None
-    where it can, and where light from near the normal was not measured.
+@dataclass(frozen=True)
+class Lobe:
+    """What a lobe returns of the light at an incidence, and the most that a dielectric's surface can."""
 
-    Sum of height x F0, a lobe under a coat or with a k left out, median over the channels. A third above the brightest
-    dielectric, half way to the darkest metal, so that an absolute scale a little off decides nothing.
+    theta_i_deg: float  # 0 for all that count as near the normal
+    level: float
+    most: float
+
+
+def too_bright_for_a_dielectric(row: Row) -> Lobe | None:
+    """What the lobes of one that is no metal return of light, where no dielectric's surface can; None where it can, and
+    where no mirror direction was measured.
+
+    At the lowest incidence at which the mirror direction was measured: farther from the normal F0 is a guess, and what
+    comes back is not.
     """
-    if is_metal(row) or row.growth is None or row.growth["theta_i_deg"][0] > LOW_DEG:
+    if is_metal(row) or row.mirror_from_deg is None:
         return None
-    values, level = {**row.fit.model.defaults(), **row.fit.values}, np.zeros(1)
-    for term in row.fit.model.terms:
+    return lobe_too_bright(row.fit.model, row.fit.values, row.mirror_from_deg)
+
+
+def lobe_too_bright(model: Composite, values: Mapping, theta_i_deg: float) -> Lobe | None:
+    """The same of a sum with these values, from light at this incidence.
+
+    Sum of height x F, a lobe under a coat or with a k left out, median over the channels. Half way (of logarithms) from
+    the brightest dielectric to the darkest metal, so that an absolute scale a little off decides nothing; toward
+    grazing, where both return all, nothing is decided at all.
+    """
+    values, level = {**model.defaults(), **values}, np.zeros(1)
+    theta = theta_i_deg if theta_i_deg > LOW_DEG else 0.0
+    cos = np.cos(np.radians(theta))
+    for term in model.terms:
         if term.model.has_index and not term.model.base and not np.any(values[term.key("k")]):
-            level = level + values[term.key(term.model.amplitude or "")] * fresnel.f0(values[term.key("n")])
+            level = level + values[term.key(term.model.amplitude or "")] * fresnel.fresnel(cos, values[term.key("n")])
     found = float(np.median(level))
-    return found if found**2 > MOST_DIELECTRIC * LEAST_METAL else None
+    most, least = (float(fresnel.fresnel(cos, *each)) for each in (_BRIGHTEST, _DARKEST))
+    return Lobe(theta, found, most) if found**2 > most * least else None
 
 
 def _inside(row: Row) -> bool:

@@ -58,6 +58,7 @@ class Row:
     cost: Cost
     held_out: HeldOut | None = None
     growth: dict | None = None
+    mirror_from_deg: float | None = None  # the lowest incidence at which the mirror direction was measured
     warnings: tuple[Finding, ...] = ()
     close: bool = False  # enough to the best that can be trusted, by what `Options.close` says
     from_best: float = 0.0  # S [L*] between it and the best

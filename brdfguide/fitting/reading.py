@@ -126,7 +126,10 @@ def _finite_with_slopes(layout: Layout, surface: Surface, geom: Geometry) -> tup
     """The finite part and its derivative with respect to each free coordinate, (samples, channels)."""
     geom = geom.at(surface.wavelength).channels_first
     total, slopes = _terms_with_slopes(layout, _channels_first(surface.values), geom)
-    return np.transpose(total), {key: np.transpose(slope) for key, slope in slopes.items()}
+    total = np.transpose(total)
+    if total.shape[1] != len(surface.channels):  # nothing that tells channels apart
+        total = np.broadcast_to(total, (len(total), len(surface.channels)))
+    return total, {key: np.transpose(slope) for key, slope in slopes.items()}
 
 
 def many_with_slopes(layout: Layout, values: Mapping, instrument: Instrument, constant: dict):

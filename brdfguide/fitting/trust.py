@@ -5,7 +5,7 @@ from math import exp, expm1, log
 
 import numpy as np
 
-from ..data.metal_or_dielectric import LEAST_METAL, MOST_DIELECTRIC
+from ..data.metal_or_dielectric import LEAST_METAL
 from ..finding import Finding
 from ..flags import Effect
 from ..physics import fresnel
@@ -46,12 +46,11 @@ def _no_metal(row: Row) -> tuple[Finding, ...]:
 
 def _no_dielectric(row: Row) -> tuple[Finding, ...]:
     """A doubt about a body whose lobe reflects more than any dielectric's."""
-    level = too_bright_for_a_dielectric(row)
-    if level is None:
+    lobe = too_bright_for_a_dielectric(row)
+    if lobe is None:
         return ()
-    text = (
-        f"its lobe returns {level:.2g} at the normal, more than any dielectric's surface ({MOST_DIELECTRIC:g} at most)"
-    )
+    where = f"{lobe.theta_i_deg:.3g} degrees of incidence" if lobe.theta_i_deg else "the normal"
+    text = f"its lobe returns {lobe.level:.2g} at {where}, more than any dielectric's surface ({lobe.most:.2g} at most)"
     consequence = "a metal, flakes under a clear coat, or a wrong scale"
     return (Finding("f0-above-dielectrics", text, "warning", consequence, "--kind metal"),)
 

@@ -1,6 +1,7 @@
 """What the judge says of kinds of data that practitioners have: a black dielectric, a white standard."""
 
 import numpy as np
+import pytest
 
 from brdfguide import fit, models
 from brdfguide.data.measurement import Measurement
@@ -44,6 +45,17 @@ def test_a_made_metal_of_which_the_kind_is_not_told_is_answered_as_the_metal_it_
     assert answer.judged.known is None
     assert answer.recommended.name == "ggx (metal, edge free)"
     assert "lambertian+ggx (height free)" in answer.document["because"]
+
+
+@pytest.mark.parametrize(("n", "k"), [(0.42, 2.35), (1.02, 6.63), (3.17, 3.31)], ids=["gold", "aluminium", "chromium"])
+@pytest.mark.parametrize("theta_i", [30, 45, 60])
+def test_a_metal_at_one_incidence_is_answered_as_one_seed_0(n, k, theta_i):
+    """A dielectric of n 7 to 45 errs as little, and one scan does not grow; no dielectric returns as much there."""
+    truth = {"ggx.alpha": 0.2, "ggx.n": n, "ggx.k": k}
+    data = synthetic.surface(models.get("ggx"), synthetic.scan((theta_i,)), truth, noise=0.02)
+    answer = fit(data, timing=False)
+    assert answer.recommended.name.startswith("ggx (metal") and answer.recommended.rms_ln < 0.035
+    assert not [each for each in answer.document["warnings"] if each["code"] == "f0-above-dielectrics"]
 
 
 def test_a_dielectric_that_needs_a_lobe_as_bright_as_none_has_is_said():

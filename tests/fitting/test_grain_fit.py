@@ -20,6 +20,7 @@ from brdfguide.fitting.objective import Misfit, metric
 from brdfguide.models.candidates import Grained, with_grain
 from brdfguide.report.documents.errors_of_grain import errors_of_grain
 
+from .. import synthetic
 from ..data.test_rotation import scans
 
 TURNS = [0.0, 30, 60, 90, 120, 150]
@@ -253,3 +254,12 @@ def test_scans_under_other_turns_err_apart(monkeypatch):
     together = fitting.fit(free("ggx-aniso"), measurement).stderr["ggx-aniso.axis"]
     monkeypatch.setattr(standard_errors, "whole_scans", lambda measurement: None)
     assert together > 1.5 * fitting.fit(free("ggx-aniso"), measurement).stderr["ggx-aniso.axis"]
+
+
+def test_a_brushed_metal_scanned_across_its_grain_in_colour_is_answered():
+    """Its law has nothing that tells channels apart there, and reads the same in all of them."""
+    truth = {"ggx-aniso.alpha_x": 0.3, "ggx-aniso.alpha_y": 0.05, "ggx-aniso.n": 1.0, "ggx-aniso.k": 6.6}
+    data = synthetic.surface(models.get("ggx-aniso"), synthetic.scan((20, 45, 70)), truth, noise=0.02, channels=3)
+    answer = brdfguide.fit(data, timing=False)
+    assert answer["ggx-aniso"].rms_ln < 0.025
+    assert [each.code for each in answer.measurement.findings if each.code == "height-against-width"]

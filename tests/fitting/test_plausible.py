@@ -19,7 +19,8 @@ def row(name: str, error: float, free: int, *, tied=True, rise=10.0, measured=10
     model = candidates.named(name)
     fit = Fit(Surface(model, values or {}, ("550 nm",)), {}, None, error, free, 1, 0.0, True)
     growth = {"theta_i_deg": [lowest, 75.0], "r_mirror": rise, "r_mirror_data": measured}
-    return Row(fit, 1, tied, error, {}, {"ln": error, "seen": 1.0}, 0.0, 0.0, 1.0, Cost(10.0 * free), growth=growth)
+    cost, errors = Cost(10.0 * free), {"ln": error, "seen": 1.0}
+    return Row(fit, 1, tied, error, {}, errors, 0.0, 0.0, 1.0, cost, growth=growth, mirror_from_deg=lowest)
 
 
 def test_a_dielectric_is_not_answered_by_a_lobe_without_fresnel():
@@ -79,16 +80,25 @@ def test_a_dielectric_as_bright_near_the_normal_as_none_gives_way_to_the_metal_t
     metal = row("ggx (metal, edge free)", 0.101, 3)
     bright, ordinary, grazing = (
         row("lambertian+ggx (height free)", 0.1, 2, values={"ggx.n": 4.9, "ggx.scale": height}, lowest=lowest)
-        for height, lowest in ((1.25, 10.0), (0.4, 10.0), (1.25, 50.0))
+        for height, lowest in ((1.25, 10.0), (0.4, 10.0), (1.25, 84.0))
     )
-    assert too_bright_for_a_dielectric(bright) == pytest.approx(1.25 * (3.9 / 5.9) ** 2)
+    found = too_bright_for_a_dielectric(bright)
+    assert (found.theta_i_deg, found.most) == (0.0, 0.25) and found.level == pytest.approx(1.25 * (3.9 / 5.9) ** 2)
     pick, because = picked((bright, metal))
-    assert pick is metal and "has a lobe as bright near the normal as no dielectric's surface" in because
+    assert pick is metal and "has a lobe as bright as no dielectric's surface" in because
     assert picked((bright, metal), kind="dielectric")[0] is bright
-    for each in (ordinary, grazing):  # where light from near the normal was not measured, that level is a guess
+    for each in (ordinary, grazing):  # toward grazing every surface returns most of the light
         assert too_bright_for_a_dielectric(each) is None and picked((each, metal))[0] is each
     assert picked((bright,))[0] is bright
     assert too_bright_for_a_dielectric(metal) is None
+
+
+def test_a_lobe_is_judged_by_what_it_returns_where_it_was_measured():
+    """At 60 degrees n = 3 returns 0.27 and the darkest metal 0.49: 0.37 lies half way, n = 4 just short of it."""
+    for n, too_bright in ((4.0, False), (6.0, True)):
+        each = row("lambertian+ggx", 0.1, 3, values={"ggx.n": n}, lowest=60.0)
+        assert (too_bright_for_a_dielectric(each) is not None) is too_bright
+    assert too_bright_for_a_dielectric(replace(each, mirror_from_deg=None)) is None
 
 
 def test_a_growth_far_from_the_data_s_loses_to_one_that_is_near():
