@@ -270,6 +270,7 @@ FITTED = {
     "imitates": Flag("Its lobes imitate the data at the fitted angles only.", WARNING, effect=Effect.FORBIDS),
     "instrument": Flag("Gains of scans and the zero of the detector's arm explain the misfit.", WARNING),
     "metric-decides": Flag("Another scale of error has another winner.", WARNING, "--metric"),
+    "no-index": Flag("A fitted n that no dielectric has, or one by colour.", WARNING, "--fix, --kind", "parameter"),
     "no-model-looks-right": Flag(
         "Even the best model is seen to differ, by more than 8 L* on a sphere.", WARNING, effect=Effect.OF_LOOKS
     ),

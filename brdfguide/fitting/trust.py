@@ -10,6 +10,7 @@ from ..finding import Finding
 from ..flags import Effect
 from ..physics import fresnel
 from .choosing import trusted
+from .index_doubts import index_doubts
 from .plausible import is_metal, too_bright_for_a_dielectric
 from .ranked import Ranking, Row
 
@@ -23,7 +24,8 @@ def distrusted(ranking: Ranking, *, anyway: bool = False) -> Ranking:
     That is where even the best model is far off, by `MOST_ERROR` and by `MOST_NOISE` times the noise, and where every
     candidate that was refined ended at a bound.
     """
-    ranking = ranking.warned(*_no_metal(ranking.recommended), *_no_dielectric(ranking.recommended))
+    row = ranking.recommended
+    ranking = ranking.warned(*_no_metal(row), *_no_dielectric(row), *index_doubts(row))
     text = _far_off(trusted(ranking.rows), ranking.noise) or _at_bounds(ranking.rows)
     if not text:
         return ranking
