@@ -13,6 +13,7 @@ from ..records import dataclass
 from .ranked import BETTER, Row
 
 MOST_NAMED = 3  # in an aside
+MOST_RETURNED = 1.2  # of the light; a scale may be that far off (ours)
 AT_BOUND = "a parameter at its bound"
 NEAR_GROWTH = log(1.5)  # |ln| of a model's rise in the mirror direction over the data's, up to which it is near (ours)
 FAR_GROWTH = log(2.5)  # the same, from which on it is far (ours)
@@ -23,10 +24,10 @@ _DARKEST = 1.0, 2 * sqrt(LEAST_METAL / (1 - LEAST_METAL))  # of a metal, as thos
 def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Row], str]:
     """Those of `rows` that may be recommended, and an aside on the others; never none.
 
-    After the verdict "dielectric" a lobe has Fresnel's factor, unless it has a parameter at its bound; none whose rise
-    toward grazing is far from the data's while another's is near; none at a bound while another is inside; where the
-    kind is not known, none of the other kind than the best, but a metal where that is a dielectric with a lobe as
-    bright as none has.
+    After the verdict "dielectric" a lobe has Fresnel's factor, unless it has a parameter at its bound; where the kind
+    is not known, none of the other kind than the best, but a metal where that is a dielectric with a lobe as bright as
+    none has; none that returns more light than it gets while another does not; none at a bound while another is
+    inside; none whose rise toward grazing is far from the data's while another's is near.
     """
     aside = ""
     if kind == "dielectric":
@@ -42,6 +43,7 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
             aside,
             "another kind of surface, which these data leave open",
         )
+    rows, aside = _sifted(rows, _keeps_energy, aside, "a lobe that returns more light than it gets")
     rows, aside = _sifted(rows, _inside, aside, AT_BOUND)
     if any(growth_error(row) <= NEAR_GROWTH for row in rows):
         rows, aside = _sifted(
@@ -115,6 +117,17 @@ def lobe_too_bright(model: Composite, values: Mapping, theta_i_deg: float) -> Lo
     found = float(np.median(level))
     most, least = (float(fresnel.fresnel(cos, *each)) for each in (_BRIGHTEST, _DARKEST))
     return Lobe(theta, found, most) if found**2 > most * least else None
+
+
+def _keeps_energy(row: Row) -> bool:
+    """Whether its lobes return no more of light at the normal than there is, by more than a scale is off: sum of height
+    x F0, median over the channels."""
+    values, level = {**row.fit.model.defaults(), **row.fit.values}, np.zeros(1)
+    for term in row.fit.model.terms:
+        if term.model.has_index and not term.model.base:
+            n, k, height = (values[term.key(name)] for name in ("n", "k", term.model.amplitude or ""))
+            level = level + height * fresnel.f0(n, k)
+    return float(np.median(level)) < MOST_RETURNED
 
 
 def _inside(row: Row) -> bool:

@@ -108,6 +108,17 @@ def test_a_growth_far_from_the_data_s_loses_to_one_that_is_near():
     assert picked(nobody_near)[0] is nobody_near[1]
 
 
+def test_a_lobe_that_returns_more_light_than_it_gets_loses_to_one_that_does_not():
+    """A brushed metal's narrow lobe across its grain: a round one is 6.9 times too high, F0 0.8 times that."""
+    bright = row("ggx (metal)", 0.1, 2, values={"ggx.n": 1.0, "ggx.k": 4.0, "ggx.scale": 6.9})
+    grained = row("ggx-aniso (metal)", 0.101, 3, values={"ggx-aniso.n": 1.0, "ggx-aniso.k": 4.0})
+    pick, because = picked((bright, grained))
+    assert pick is grained and "ggx (metal) has a lobe that returns more light than it gets" in because
+    assert picked((bright,))[0] is bright
+    off_scale = replace(bright, fit=replace(bright.fit, surface=bright.fit.surface.with_value("ggx.scale", 1.4)))
+    assert picked((off_scale, grained))[0] is off_scale
+
+
 def test_a_parameter_at_its_bound_loses_to_one_inside():
     at_bound = Finding("at-bound", "at its high bound", "warning", subject="ggx.n")
     stuck = row("lambertian+ggx", 0.101, 2)
