@@ -215,14 +215,15 @@ def _tenth(angle: float) -> float:
     return round(10 * angle) / 10
 
 
-def noise_of_values(data: Readings, relative: float):
-    """rms of ln by which single values scatter: from their relative doubt and the dark level's, or as it is stated."""
+def noise_of_values(data: Readings, relative: float, left):
+    """rms of ln by which single values scatter: from their relative doubt and the dark level's, or as it is stated;
+    what the first row leaves (`left`; None: not known) where that is much less than the former."""
     told = [(v, doubt) for row in data.exact for v, doubt in zip(row, data.doubt, strict=True) if v is not None]
     scatter = sqrt(mpf(relative) ** 2 + fsum((mpf(doubt) / v) ** 2 for v, doubt in told) / len(told))
-    return max(scatter, _stated(data))
+    return max(_no_more_than(left, scatter), _stated(data))
 
 
-def noise_of_residuals(data: Readings, rows: list[list]):
+def noise_of_residuals(data: Readings, rows: list[list], left):
     """The same where no value can be compared with others: from second differences of residuals along the scans."""
     along = [rows[place] for place in scan_order(data)]
     steps = [
@@ -232,7 +233,11 @@ def noise_of_residuals(data: Readings, rows: list[list]):
         if a is not None and b is not None and c is not None
     ]
     scatter = PER_MEDIAN * median(steps) / sqrt(6) if steps else mpf(0)
-    return max(scatter, _stated(data))
+    return max(_no_more_than(left, scatter), _stated(data))
+
+
+def _no_more_than(left, scatter):
+    return left if left is not None and left < scatter / 2 else scatter
 
 
 def _stated(data: Readings):

@@ -328,9 +328,9 @@ def _noise_and_floor(answer: dict, rows: dict[int, _Row], data: Readings, found:
     first = next((each for each in rows.values() if each.row["rank"] == 1 and each.row["behind"] == 0), None)
     noise = None
     if told.get("relative") is not None and "absolute_per_sr" in told:
-        noise = exact_errors.noise_of_values(data, told["relative"])
+        noise = exact_errors.noise_of_values(data, told["relative"], first and first.rms)
     elif "absolute_per_sr" in told and first is not None:
-        noise = exact_errors.noise_of_residuals(data, first.residuals)
+        noise = exact_errors.noise_of_residuals(data, first.residuals, first.rms)
     if noise is not None:
         found.rounded("noise_rms_ln", answer["noise_rms_ln"], noise, 6)
     if floor is None:

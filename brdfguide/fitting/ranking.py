@@ -30,6 +30,7 @@ from .residuals import NO_ERROR, rms
 REPEATS = 7  # of a timing, the least of which counts
 TIMED_SAMPLES = 2048  # directions of a timing, repeated where there are fewer: a long batch that fits the cache
 IN_COMMON = 2.0  # times the scatter between neighbours, from which a stated error is one that they share (ours)
+SHARPER = 0.5  # times the scatter about neighbours, below which what the best law leaves is the scatter (ours)
 SAME = 1e-5  # times the best error: alike to the digits that order them
 
 
@@ -57,6 +58,8 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
     along = standard_errors.along_scans(compared)
     worth = smoothness.estimated_noise(measurement)
     noise = noise_of(best[along]) if worth.relative is None else worth.expected(compared.brdf, compared.clear)
+    if errors[order[0]]["ln"] < SHARPER * noise:  # a lobe bends between neighbours that lie far apart
+        noise = errors[order[0]]["ln"]
     stated = stated_noise(compared)
     common = stated if stated > IN_COMMON * noise else 0.0
     noise = max(noise, stated)

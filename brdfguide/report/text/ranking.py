@@ -139,9 +139,8 @@ def noise_line(document: dict) -> str:
     noise, values = document["noise"], document["data"]["values"]
     if noise["relative"] is None:
         return ""
-    share = (
-        off_words(100 * noise["relative"]) if noise["relative"] > LEAST_NOISE else f"less than {100 * LEAST_NOISE:g} %"
-    )
+    level = min(noise["relative"], document["noise_rms_ln"])  # what the best law leaves, where that is less
+    share = off_words(100 * level) if level > LEAST_NOISE else f"less than {100 * LEAST_NOISE:g} %"
     text = f"\nsingle values scatter by {share}"
     if any(noise.get("absolute_per_sr") or ()):
         text += f", and by {span_text(noise['absolute_per_sr'])}/sr where they are dim"
