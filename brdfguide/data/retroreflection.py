@@ -53,5 +53,8 @@ def _by_incidence(measurement: Measurement) -> Iterator[tuple[float, float | Non
         if not len(around):
             continue
         highest, nearer = level[near].max(), mirror[around] < 2 * angle
-        sides = [np.median(level[side]) for side in (around[nearer], around[~nearer]) if len(side)]
-        yield highest / max(sides), highest / level[ahead].max() if len(ahead) else None
+        sides = [side for side in (around[nearer], around[~nearer]) if len(side)]
+        # beyond the source a lobe falls again; where nothing was measured there, all surfaces grow toward grazing
+        seen = level if len(sides) > 1 else level * geom.cos_r[:, 0]
+        above = seen[near].max() / max(np.median(seen[side]) for side in sides)
+        yield above, highest / level[ahead].max() if len(ahead) else None

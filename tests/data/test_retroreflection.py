@@ -29,3 +29,19 @@ def test_a_flank_that_falls_by_decades_is_no_lobe(step):
 def test_light_sent_back_over_such_a_flank_is_one(step):
     found = retroreflection.lobe(scans("beckmann+retro", COPPER, step))
     assert found.lobe > 3
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("ggx", {"ggx.alpha": 0.2, "ggx.n": 1.0, "ggx.k": 6.6}),
+        ("lommel-seeliger", {"lommel-seeliger.w": 0.3}),
+        ("oren-nayar", {"oren-nayar.albedo": 0.2, "oren-nayar.spread": 0.5}),
+    ],
+)
+def test_what_grows_toward_grazing_is_no_lobe_where_nothing_was_measured_beyond_the_source(name, values):
+    whole = scans(name, values, 3.0)
+    steep = whole[whole.geom.theta_i_deg[:, 0] > 70]
+    assert retroreflection.lobe(steep).lobe < 1.5
+    sent_back = scans(f"{name}+retro", values | {"retro.rho": 0.1, "retro.alpha": 0.05}, 3.0)
+    assert retroreflection.lobe(sent_back[sent_back.geom.theta_i_deg[:, 0] > 70]).lobe > 3
