@@ -23,6 +23,7 @@ ALLOWED = 0.05  # rms ln that closeness to the eye may always cost: typically 5 
 ALLOWED_SHARE = 0.25  # of the best error, where that is more: the tolerance that its S has as well (ours)
 DIFFERENT_SHARE = 0.5  # the same where the best is seen to be clearly different: the eye is then asked first (ours)
 SIMPLER = 0.9  # times the fewest numbers of those that tie, up to which another is simpler, as closeness asks (ours)
+MANY = 2.0  # times the numbers of another that ties, from which on a model is not for its cost to be preferred (ours)
 CHEAPER = 0.8  # times the operations of another, from which on a model is called cheaper
 AS_LIKELY = 0.1  # times the probability of the most probable, from which on another is about as probable (ours)
 MUCH_LESS = 1.5  # times the error of another with as few numbers, from which on the other is to be preferred (ours)
@@ -124,6 +125,8 @@ def picked(
     aside += doubts
     if equal:
         near = [row for row in near if row.fit.free <= SIMPLER * min(each.fit.free for each in equal)]
+    fewest = min((row.fit.free for row in equal), default=0)
+    equal = [row for row in equal if row.fit.free < MANY * fewest]
     equal, outdone = _outdone(equal)
     near, merely_cheaper = _outdone(near)
     pick = min(equal or near, key=lambda row: (row.fit.free, row.work))

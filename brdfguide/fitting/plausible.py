@@ -26,8 +26,10 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
 
     After the verdict "dielectric" a lobe has Fresnel's factor, unless it has a parameter at its bound; where the kind
     is not known, none of the other kind than the best, but a metal where that is a dielectric with a lobe as bright as
-    none has; none that returns more light than it gets while another does not; none at a bound while another is
-    inside; none whose rise toward grazing is far from the data's while another's is near.
+    none has. From one incidence none without Fresnel's factor while another that ties has it: nothing else tells how
+    its lobe grows. None of whose numbers most are undetermined while another's are not; none that returns more light
+    than it gets while another does not; none at a bound while another is inside; none whose rise toward grazing is far
+    from the data's while another's is near.
     """
     aside = ""
     if kind == "dielectric":
@@ -43,6 +45,12 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
             aside,
             "another kind of surface, which these data leave open",
         )
+    one_incidence = best.mirror_from_deg is not None and best.growth is None
+    if one_incidence and any(row.tied and _has_fresnel(row) for row in rows):
+        rows, aside = _sifted(
+            rows, _has_fresnel, aside, "no Fresnel factor, and one incidence does not tell how they grow"
+        )
+    rows, aside = _sifted(rows, _is_determined, aside, "numbers of which most are not determined")
     rows, aside = _sifted(rows, _keeps_energy, aside, "a lobe that returns more light than it gets")
     rows, aside = _sifted(rows, _inside, aside, AT_BOUND)
     if any(growth_error(row) <= NEAR_GROWTH for row in rows):
@@ -117,6 +125,12 @@ def lobe_too_bright(model: Composite, values: Mapping, theta_i_deg: float) -> Lo
     found = float(np.median(level))
     most, least = (float(fresnel.fresnel(cos, *each)) for each in (_BRIGHTEST, _DARKEST))
     return Lobe(theta, found, most) if found**2 > most * least else None
+
+
+def _is_determined(row: Row) -> bool:
+    """Whether the data tell more than half of what was fitted."""
+    loose = {each.subject for each in row.fit.warnings if each.effect is Effect.LOOSENS}
+    return 2 * len(loose) <= len(row.fit.stderr)
 
 
 def _keeps_energy(row: Row) -> bool:

@@ -108,6 +108,36 @@ def test_a_growth_far_from_the_data_s_loses_to_one_that_is_near():
     assert picked(nobody_near)[0] is nobody_near[1]
 
 
+def test_of_one_incidence_a_law_without_fresnel_loses_to_one_that_ties_and_has_it():
+    """A leather was answered by two lobes of Lafortune's, which were 57 % off at other incidences."""
+    rows = [row("lambertian+ggx", 0.1, 4), row("lambertian+lafortune", 0.101, 3)]
+    assert picked(rows)[0] is rows[1]
+    alone = [replace(each, growth=None) for each in rows]
+    pick, because = picked(alone)
+    assert pick is alone[0] and "lambertian+lafortune has no Fresnel factor, and one incidence" in because
+    near = replace(row("lambertian+ggx", 0.11, 4, tied=False), growth=None, close=True)
+    assert picked((alone[1], near), "look")[0] is alone[1], "one that errs more is not taken for its factor"
+
+
+def test_a_law_of_whose_numbers_most_are_not_determined_loses_to_one_that_ties_and_is():
+    def loose(one, *keys):
+        doubts = tuple(Finding("undetermined", "not determined", "warning", subject=key) for key in keys)
+        stderr = dict.fromkeys(one.fit.model.parameters, 0.1)
+        return replace(one, fit=replace(one.fit, stderr=stderr, warnings=doubts))
+
+    best, simple = row("lambertian+student-t", 0.1, 4), row("lambertian+beckmann", 0.101, 3)
+    assert picked((best, loose(simple, "lambertian.albedo")))[0].fit.name == "lambertian+beckmann"
+    pick, because = picked((best, loose(simple, *simple.fit.model.parameters)))
+    assert pick is best and "lambertian+beckmann has numbers of which most are not determined" in because
+
+
+def test_no_law_of_many_more_numbers_is_taken_for_its_cost():
+    dear = replace(row("oren-nayar", 0.1, 4), close=True)
+    cheap = {free: replace(row("lambertian+lafortune:2", 0.101, free), close=True, cost=Cost(1.0)) for free in (7, 13)}
+    assert picked((dear, cheap[7]), "look")[0] is cheap[7]
+    assert picked((dear, cheap[13]), "look")[0] is dear
+
+
 def test_a_lobe_that_returns_more_light_than_it_gets_loses_to_one_that_does_not():
     """A brushed metal's narrow lobe across its grain: a round one is 6.9 times too high, F0 0.8 times that."""
     bright = row("ggx (metal)", 0.1, 2, values={"ggx.n": 1.0, "ggx.k": 4.0, "ggx.scale": 6.9})
