@@ -29,6 +29,7 @@ ALIKE = 1.03  # times the least held-out error up to which the simpler step is t
 VALUES_EACH = 3  # for each free number, the least with which one grows
 MOST_BEHIND = 3.0  # times the error of the best body and lobe, up to which a metal comes near (ours)
 FOLLOWED = 3  # candidates of a step whose held-out error is formed
+MAY_BE_BEST = 1.5  # times the error of the best metal of n = 1, up to which another may be better with its edge (ours)
 PEAK, SHOULDER = 0.5, 0.05  # of the value in the mirror direction, down to which a lobe has its peak and its shoulder
 LOW_DEG, HIGH_DEG = 30.0, 60.0  # incidence
 TOWARD_LIGHT_DEG = 15.0
@@ -98,26 +99,30 @@ def _root(searches: Iterable[Search], data: Prepared) -> Search | None:
     return min(filter(_can_grow, searches), key=lambda each: rms(_residuals(each, data)[1]), default=None)
 
 
-def _metal_with_edge(root: Search, searches: Iterable[Search], data: Prepared, options: FitOptions) -> list[Search]:
-    """Beside a root with a body the best metal, where it comes near, with an edge of its own: a metal of n = 1 has a
-    steeper rise toward grazing than most, which a body or a height would be taken for."""
-    return [] if is_metallic(root.layout.model) else _edges_near(root, searches, data, options)
+def _metal_with_edge(root: Search, searches: Sequence[Search], data: Prepared, options: FitOptions) -> list[Search]:
+    """Beside a root with a body, or one of a law that another metal's is better than, the best metal, where it comes
+    near, with an edge of its own: a metal of n = 1 has a steeper rise toward grazing than most, which a body or a
+    height would be taken for. The root's own edge is grown."""
+    return _edges_near(_best(searches) if is_metallic(root.layout.model) else root, root, searches, data, options)
 
 
-def _edges_near(best: Search, searches: Iterable[Search], data: Prepared, options: FitOptions) -> list[Search]:
-    """The best metal with an edge of its own, where it comes near the best of all and gains by it."""
-    metals = [each for each in searches if is_metallic(each.layout.model)]
+def _edges_near(
+    best: Search, root: Search | None, searches: Iterable[Search], data: Prepared, options: FitOptions
+) -> list[Search]:
+    """The metals that come near the best of them, and near `best`, with an edge of their own, where they gain by it."""
+    metals = [each for each in searches if is_metallic(each.layout.model) and each is not root]
     least = min((each.rms for each in metals), default=0.0)
-    near = [each for each in metals if each.rms <= ALIKE * least]
-    metal = min(near, key=lambda each: (each.layout.count, each.rms), default=None)
-    if metal is None or metal.rms > MOST_BEHIND * best.rms:
-        return []
+    near = [each for each in metals if each.rms <= min(MAY_BE_BEST * least, MOST_BEHIND * best.rms)]
     sought = [
         Sought(each.model, Given(each.starts, each.levels, metal.rms))
+        for metal in near
         for each in edges(metal.layout.model, metal.values)
     ]
-    tried = search_all(sought, data, options)
-    return [each for each in tried if each.rms < BETTER * metal.rms]
+    return [each for each in search_all(sought, data, options) if each.rms < BETTER * least]
+
+
+def _best(searches: Iterable[Search]) -> Search:
+    return min(searches, key=lambda each: each.rms)
 
 
 def _where_nothing_grows(
@@ -125,12 +130,12 @@ def _where_nothing_grows(
 ) -> list[Search]:
     """A metal with an edge of its own, where a metal of n = 1 leaves more than noise or something else is as bright as
     no dielectric and nobody says that it is one."""
-    best, lowest = min(searches, key=lambda each: each.rms), cross_validation.mirror_from_deg(data.whole)
+    best, lowest = _best(searches), cross_validation.mirror_from_deg(data.whole)
     if is_metallic(best.layout.model):
         wanted = bool(_shown(best, data))
     else:
         wanted = lowest is not None and lobe_too_bright(best.layout.model, best.values, lowest) is not None
-    return _edges_near(best, searches, data, options) if wanted and kind != "dielectric" else []
+    return _edges_near(best, None, searches, data, options) if wanted and kind != "dielectric" else []
 
 
 def _can_grow(search: Search) -> bool:

@@ -36,7 +36,7 @@ def plausible(rows: Sequence[Row], best: Row, kind: str | None) -> tuple[list[Ro
         if not any(_has_fresnel(row) and _inside(row) for row in rows):
             rows, aside = _sifted(rows, _inside, aside, AT_BOUND)
         rows, aside = _sifted(rows, _has_fresnel, aside, "no Fresnel factor, which a dielectric's lobe has")
-    elif kind is None and too_bright_for_a_dielectric(best) is not None:
+    elif kind is None and _only_a_metal_is_as_bright(rows, best):
         rows, aside = _sifted(rows, is_metal, aside, "a lobe as bright as no dielectric's surface")
     elif kind is None:
         rows, aside = _sifted(
@@ -86,6 +86,17 @@ def is_metal(row: Row) -> bool:
     """Whether it is a metal's lobe without a body: k is what was fitted."""
     bodies = any(term.model.is_body for term in row.fit.model.terms)
     return not bodies and any(key.endswith(".k") for key in row.fit.model.free)
+
+
+def _only_a_metal_is_as_bright(rows: Sequence[Row], best: Row) -> bool:
+    """Whether the best returns more than a dielectric can, or has no index to tell by and all that have one do."""
+    judged = [best] if is_metal(best) or _has_index(best) else [row for row in rows if _has_index(row)]
+    judged = [row for row in judged if not is_metal(row)]
+    return bool(judged) and all(too_bright_for_a_dielectric(row) is not None for row in judged)
+
+
+def _has_index(row: Row) -> bool:
+    return any(term.model.has_index for term in row.fit.model.terms)
 
 
 @dataclass(frozen=True)

@@ -58,6 +58,17 @@ def test_a_metal_at_one_incidence_is_answered_as_one_seed_0(n, k, theta_i):
     assert not [each for each in answer.document["warnings"] if each["code"] == "f0-above-dielectrics"]
 
 
+@pytest.mark.parametrize("scan", [(20, 45, 70), (75,)], ids=["three", "steep"])
+def test_a_metal_of_another_law_than_what_grows_has_its_edge_as_well_seed_0(scan):
+    """GGX's metal grows and is ten times as far off; Cook and Torrance's with n = 1 tied with a dielectric of n 7.5."""
+    truth = {"cook-torrance.alpha": 0.3, "cook-torrance.n": 2.5, "cook-torrance.k": 3.4}
+    data = synthetic.surface(models.get("cook-torrance"), synthetic.scan(scan), truth, noise=0.005)
+    answer = fit(data, timing=False)
+    assert answer.recommended.name == "cook-torrance (metal, edge free)" and answer.recommended.rms_ln < 0.006
+    for name, error in (("n", 0.3), ("k", 0.1)):
+        assert abs(answer.recommended.values[f"cook-torrance.{name}"][0] - truth[f"cook-torrance.{name}"]) < error
+
+
 def test_a_dielectric_that_needs_a_lobe_as_bright_as_none_has_is_said():
     truth = {"ggx.alpha": 0.2, "ggx.n": 3.2, "ggx.k": 3.3}
     data = synthetic.surface(models.get("ggx"), synthetic.scan(), truth, noise=0.02)

@@ -101,6 +101,13 @@ def test_a_lobe_is_judged_by_what_it_returns_where_it_was_measured():
     assert too_bright_for_a_dielectric(replace(each, mirror_from_deg=None)) is None
 
 
+def test_where_the_best_has_no_index_those_that_have_one_say_what_is_too_bright():
+    best, metal = row("lambertian+lafortune:2", 0.1, 7), row("ggx (metal)", 0.102, 2)
+    for n, pick in ((16.7, metal), (1.5, None)):
+        dielectric = row("lambertian+ggx", 0.101, 3, values={"ggx.n": n})
+        assert picked((best, dielectric, metal))[0] is (pick or dielectric)
+
+
 def test_a_growth_far_from_the_data_s_loses_to_one_that_is_near():
     rows = (row("lambertian+ggx", 0.1, 3, rise=14.0), row("lambertian+beckmann", 0.101, 2, rise=26.0))
     assert picked(rows)[0] is rows[0]
