@@ -2,12 +2,11 @@
 
 import os
 import sys
-from io import StringIO
 
 from .. import catalog, printable, stopping
 from ..errors import BrdfguideError, mistake
 from ._complete import ASKED, codes_begun, offer, wanted
-from ._streams import say, whisper
+from ._streams import failed, say, whisper
 
 # Of a linear algebra library: our matrices are small, and its threads spin while they wait.
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -80,23 +79,27 @@ def run_command(argv: list[str]) -> int:
     except Exception as error:
         if "--debug" in argv:
             raise
-        return _told(error)
+        return _told(error, f"brdfguide {asked}" if asked in known else "brdfguide")
 
 
-def _told(error: Exception) -> int:
-    """Says what went wrong; the exit status."""
+def _told(error: Exception, command: str) -> int:
+    """Says what went wrong with a command; the exit status."""
     if isinstance(error, BrdfguideError):
         whisper(f"brdfguide: {error}")
         return error.exit_status
     if hasattr(error, "format_message"):  # the parser's
-        words = StringIO()
-        error.show(file=words)  # type: ignore[attr-defined]
-        whisper("\n".join(map(printable.sentence, words.getvalue().rstrip("\n").split("\n"))))
+        from ._usage import usage_sentence
+
+        whisper(usage_sentence(error, command))
         return 2
     if isinstance(error, MemoryError):
         whisper("brdfguide: there is not enough memory for this")
         return 2
     if isinstance(error, OSError):
+        try:
+            sys.stdout.flush()
+        except OSError as unwritten:  # help, which the parser writes
+            return failed(unwritten)
         what = f"{error.filename}: " if error.filename else ""
         whisper(f"brdfguide: {printable.sentence(f'{what}{error.strerror or error}')}")
         return 2

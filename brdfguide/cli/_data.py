@@ -1,5 +1,6 @@
 """Options about what a data file means, shared by the commands that read one."""
 
+from math import isfinite
 from typing import Annotated, Any
 
 from typer import Option
@@ -101,9 +102,12 @@ def wavelength_choice(text: str | None) -> tuple[float, float] | list[float] | N
     if text is None:
         return None
     try:
-        if ":" in text:
-            low, high = (float(part) for part in text.split(":"))
-            return low, high
-        return [float(part) for part in text.split(",")]
+        asked = [float(part) for part in text.split(":" if ":" in text else ",")]
+        if not all(map(isfinite, asked)):
+            raise ValueError
+        if ":" not in text:
+            return asked
+        low, high = asked
+        return low, high
     except ValueError:
         raise InputError(f"--wavelength {text}: wanted nanometres such as 550, 450,550,650 or 400:700") from None

@@ -39,7 +39,7 @@ class Group(TyperGroup):
 
 class Command(TyperCommand):
     """Options under the heading that each names, arguments first; a number is a number, neither infinite nor none, and
-    given once; a file that is read is not written."""
+    given once; no word is empty; a file that is read is not written."""
 
     def make_parser(self, ctx):
         parser = super().make_parser(ctx)
@@ -48,6 +48,7 @@ class Command(TyperCommand):
         def parse_once(args):
             options, rest, order = parse(args)
             _refuse_twice(order)
+            _refuse_empty(order, options)
             return options, rest, order
 
         parser.parse_args = parse_once  # type: ignore[method-assign]
@@ -91,6 +92,16 @@ def _refuse_twice(order) -> None:
     twice = [each for place, each in enumerate(order) if each in order[:place] and _is_single(each)]
     if twice:
         raise InputError(f"{twice[0].opts[0]} is given twice, and only one could count")
+
+
+def _refuse_empty(order, typed) -> None:
+    """Raises InputError for an option or argument of no sign, as of a shell's variable that is not set: it would be
+    taken for one that is left out, or for the folder one is in."""
+    for each in order:
+        value = typed.get(each.name)
+        if "" in (value if isinstance(value, list | tuple) else [value]):
+            name = each.opts[0] if each.param_type_name == "option" else each.human_readable_name
+            raise InputError(f"{name} '': wanted something; of a variable that is not set nothing is left")
 
 
 def _spare_what_is_read(given, parameters) -> None:

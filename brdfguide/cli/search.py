@@ -159,11 +159,8 @@ def _show_groups(request: SearchRequest, rows: list[dict], found: list[list[str]
         say(
             "\n".join(f"{printable.line(g[0])}: {', '.join(map(printable.line, g[1:]))}" for g in found) or "none alike"
         )
-    alike = sum(map(len, found))
-    remark(
-        f"{alike} of {len(rows)} files in {len(found)} groups that look the same; the first stands for each",
-        request.quiet,
-    )
+    alike, groups = sum(map(len, found)), f"{len(found)} group{'s' * (len(found) != 1)}"
+    remark(f"{alike} of {len(rows)} files in {groups} that look the same; the first stands for each", request.quiet)
     if request.sheet:
         first = [next(row for row in rows if row["file"] == group[0]) for group in found[: request.most]]
         _draw(request.sheet, first, [f"stands for {len(group)}" for group in found], request.quiet)
