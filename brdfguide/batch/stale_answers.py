@@ -1,4 +1,5 @@
-"""Answers of a folder that no run will ask for again: of another version, of data that are gone, or damaged.
+"""Answers of a folder that no run will ask for again: of another version, of data that are gone, answered anew
+since with other options or data, or damaged.
 
 Nothing that is served is ever stale, since an answer's name says what it follows from; what is left behind only takes
 room. An answer is kept while this program would compute it and some name of the list still has its data.
@@ -15,7 +16,7 @@ from ..errors import InputError
 from .keys import bytes_of, engine
 from .store import Store
 
-VERSION, GONE, DAMAGED = "another version", "data gone", "damaged"
+VERSION, GONE, ANEW, DAMAGED = "another version", "data gone", "answered anew", "damaged"
 
 
 class StaleAnswer(NamedTuple):
@@ -63,6 +64,8 @@ def _of_answer(store: Store, key: str, labels: list[str], known: dict[str, str])
         why = DAMAGED
     elif document["stored"].get("fingerprint") != engine():
         why = VERSION
+    elif not labels:  # of every name that it had another answer is the last
+        why = ANEW
     elif not any(_has(label, document["stored"], known) for label in labels):
         why = GONE
     else:

@@ -27,7 +27,7 @@ class PruneRequest:
 
 
 def prune_answers(request: PruneRequest) -> None:
-    """List answers whose data or version are gone, and remove them with --yes."""
+    """List answers whose data, options or version are gone, and remove them with --yes."""
     from ..batch.stale_answers import remove, stale_answers
     from ..batch.store import known_store
     from ..report.text.table import columns

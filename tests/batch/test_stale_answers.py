@@ -1,6 +1,7 @@
 """What no run will ask for again is named with its reason, and is removed only when that is said."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -49,6 +50,15 @@ def test_another_version_and_damage_are_named_and_go_with_all_that_lies_beside(t
     assert len(kept(tmp_path / "fits")) == 2 and str(files[0]) not in dict(answers.names())
     monkeypatch.undo()
     assert states(tmp_path / "fits", *files, work=work) == ["answered", "answered before", "answered before"]
+
+
+def test_an_answer_that_another_took_the_place_of_is_not_said_to_have_lost_its_data(tmp_path):
+    file = some(tmp_path, "a.csv", 0)
+    rows(tmp_path / "fits", file)
+    rows(tmp_path / "fits", file, work=FitWork(job=replace(WORK.job, aperture_deg=3.0), command="brdfguide fit"))
+    assert found(tmp_path / "fits") == [("answered anew", ())]
+    file.unlink()
+    assert sorted(why for why, _ in found(tmp_path / "fits")) == ["answered anew", "data gone"]
 
 
 def test_a_failure_goes_with_its_file(tmp_path):
