@@ -98,7 +98,7 @@ def _of_row(row: Row, measurement: Measurement, beside: tuple[Beside, ...]) -> S
         wavelength=wavelength,
         intervals=_intervals(row, term, channel),
         beta=(low, high),
-        scattered=_scattered(surface, measurement, low, high),
+        scattered=scattered_shares(surface, _picked(measurement), low, high),
         band=band,
         reflectance=reflectance,
         sigma=sigma,
@@ -124,9 +124,16 @@ def _ends_of_total(row: Row, measurement: Measurement, term: Term, total: float 
     return (total * np.exp(-SIGMAS * error), total * np.exp(SIGMAS * error)) if error < 1 else None
 
 
-def _scattered(surface: Surface, measurement: Measurement, low: float, high: float) -> tuple[Scattered, ...]:
+def _picked(measurement: Measurement) -> tuple[float, ...]:
+    """Of the incidences [deg] the least, the greatest and one between."""
     angles = np.array(list(measurement.theta_i_groups))
-    picked = angles[np.unique(np.linspace(0, len(angles) - 1, INCIDENCES).round().astype(int))]
+    return tuple(angles[np.unique(np.linspace(0, len(angles) - 1, INCIDENCES).round().astype(int))].tolist())
+
+
+def scattered_shares(
+    surface: Surface, theta_i_deg: tuple[float, ...], low: float, high: float
+) -> tuple[Scattered, ...]:
+    """What a law scatters out of each incidence [deg], within `low` to `high` of |β - β0| and in all."""
 
     def lobe(geom):
         return surface.model(geom.at(surface.wavelengths), surface.values)
@@ -134,8 +141,8 @@ def _scattered(surface: Surface, measurement: Measurement, low: float, high: flo
     def seen(geom):
         return np.where((geom.vxy2 >= low**2) & (geom.vxy2 <= high**2), lobe(geom), 0.0)
 
-    whole, part = (hemisphere.dhr(each, tuple(picked.tolist()))[:, 0] for each in (lobe, seen))
-    return tuple(Scattered(*map(float, each)) for each in zip(picked, part, whole, strict=True))
+    whole, part = (hemisphere.dhr(each, theta_i_deg)[:, 0] for each in (lobe, seen))
+    return tuple(Scattered(*map(float, each)) for each in zip(theta_i_deg, part, whole, strict=True))
 
 
 @dataclass(frozen=True, eq=False)

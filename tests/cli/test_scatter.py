@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 from brdfguide.physics.height_spectrum import KCorrelation
+from brdfguide.report.figures import style
+from brdfguide.report.figures.scatter import scatter_figure
 
+from ..report import probe
 from .test_advice import run
 
 MIRROR = {"a": 1e-4, "b": 1e-5, "g": 1.8}
@@ -128,3 +131,23 @@ def test_the_plot_is_the_same_twice(tmp_path):
     for name in ("one.svg", "two.svg"):
         run("scatter", "abg", "a=1e-4", "b=1e-5", "g=1.8", "--plot", str(tmp_path / name))
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
+
+
+def test_a_scan_scatters_what_a_fit_of_it_says(tmp_path):
+    """Rayleigh and Rice's spectrum of an ABg mirror, which has no cosines, holds more."""
+    path = abg_scan(tmp_path / "mirror.csv")
+    summed = answered(path)["heights"]["summed"]
+    fitted = json.loads(run("fit", path, "-m", "abg", "--json").stdout)["stray_light"][0]
+    assert summed["law"] == "abg"
+    assert summed["scattered"] == pytest.approx(fitted["scattered"][0]["measured"], rel=1e-3)
+    first = run("scatter", path).stdout.splitlines()[0]
+    assert first.startswith("it scatters 0.") and first.endswith("0.017..1.6, as abg adds it up")
+
+
+@pytest.mark.parametrize("words", [("abg", "a=1e-4", "b=1e-5", "g=1.8"), ("abc", "a=1e-4", "b=20", "c=1.4")])
+def test_the_picture_has_a_title_and_says_what_rises_toward_grazing(words):
+    with style.look():
+        figure = scatter_figure(answered(*words))
+    assert probe.faults(figure) == []
+    assert figure.get_suptitle() == f"scatter of {words[0]} at 550 nm, light from 0°"
+    assert ("hollow" in figure.get_supxlabel()) == (words[0] == "abg")

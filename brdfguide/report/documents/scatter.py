@@ -5,6 +5,7 @@ import numpy as np
 from ...data.measurement import Measurement
 from ...errors import InputError
 from ...fitting import scatter_laws
+from ...fitting.stray_light import scattered_shares
 from ...fitting.three_ways import Profile, Total, agreement
 from ...models.surface import Surface
 from ...physics import hemisphere, profile_numbers, rough_scatter, smooth_scatter
@@ -129,19 +130,29 @@ def of_scan(
     spectrum, frequency = _shown_spectrum(part, light)
     band = float(frequency[0]), float(frequency[-1])
     sigma = surface_height(spectrum)
+    fits = scatter_laws.in_laws(part, light.mirror)
     return _answer(
         light,
         "scan",
-        heights=_heights(sigma, light, band),
+        heights={**_heights(sigma, light, band), "summed": _summed(fits, part, light)},
         assumes=[
             "the height is that of the waves within the scan's frequencies, the same in all directions",
             "directions that see the mirror beam have to be left out [--beta]",
         ],
         curve=_curve(part.geom, part.brdf[:, 0], light),
-        laws=_laws(part, light, "scan"),
+        laws=_laws(part, fits, "scan"),
         theory=_theory(sigma, light),
         three_ways=_three_ways(spectrum, light, sigma, profile, total),
     )
+
+
+def _summed(fits: tuple[scatter_laws.Told, ...], part: Measurement, light: Incident) -> dict:
+    """What the scan itself scatters within its |β - β0|, added up by the law that follows it best."""
+    best = min(fits, key=lambda each: each.fit.rms_ln)
+    x = np.sqrt(part.geom.vxy2[:, 0])
+    beta = float(x[x > 0].min()), float(x.max())
+    (found,) = scattered_shares(best.fit.surface, (light.theta_i_deg,), *beta)
+    return {"law": best.law, "scattered": found.measured, "beta": list(beta)}
 
 
 def _three_ways(spectrum: TabulatedSpectrum, light: Incident, sigma: float, profile, total) -> dict:
@@ -252,9 +263,10 @@ def _theory(sigma: float, light: Incident) -> str:
 
 
 def _curve_and_laws(geom: Geometry, brdf, light: Incident, said: str) -> dict:
+    measured = scatter_laws.as_measurement(geom, np.reshape(brdf, (-1, 1)))
     return {
         "curve": _curve(geom, np.ravel(brdf), light),
-        "laws": _laws(scatter_laws.as_measurement(geom, np.reshape(brdf, (-1, 1))), light, said),
+        "laws": _laws(measured, scatter_laws.in_laws(measured, light.mirror), said),
     }
 
 
@@ -289,11 +301,11 @@ def _shown_spectrum(part: Measurement, light: Incident) -> tuple[TabulatedSpectr
     return TabulatedSpectrum(nu, density, False), nu
 
 
-def _laws(measurement: Measurement, light: Incident, said: str) -> list[dict]:
+def _laws(measurement: Measurement, fits: tuple[scatter_laws.Told, ...], said: str) -> list[dict]:
     """The scatter in every law, the given one as it is."""
     x = np.sqrt(measurement.geom.vxy2[:, 0])
     told = []
-    for each in scatter_laws.in_laws(measurement, light.mirror):
+    for each in fits:
         parameters = {
             name: {"value": each.fit.values[key], "stderr": each.fit.stderr.get(key) if said == "scan" else None}
             for name, key in each.fit.model.terms[0].keys.items()

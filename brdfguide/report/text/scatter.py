@@ -40,6 +40,13 @@ def heights_text(document: dict) -> str:
             f"{percent_words(heights['tis'])} of what is reflected, as an rms height of "
             f"{length_text(heights['sigma_um'])} does"
         ]
+    if summed := heights.get("summed"):
+        lines = [
+            f"it scatters {percent_words(summed['scattered'])} of the light {where} within |beta - beta0| "
+            f"{summed['beta'][0]:.2g}..{summed['beta'][1]:.2g}, as {summed['law']} adds it up",
+            f"an rms height of {length_text(heights['sigma_um'])} (Ra {length_text(heights['ra_um'])}) is in its "
+            "spectrum, which Rayleigh and Rice's theory reads off every direction",
+        ]
     if "sigma_total_um" in heights:
         lines.append(f"that is what this light sees of {total_text(heights['sigma_total_um'])}")
     lines += band_lines(heights)

@@ -45,9 +45,10 @@ def _scattered(each: dict, beta: list[float]) -> str:
 
 def _heights(entry: dict) -> str:
     low, high = entry["band_per_um"]
+    by = "" if entry["is"] == "physics" else ", as the law has it near the normal,"
     text = (
-        f"rms height {length_text(entry['sigma_um'])} of waves from {length_text(1 / high)} to {length_text(1 / low)}, "
-        f"where the smooth surface reflects {entry['reflectance_taken']:.3g}"
+        f"rms height {length_text(entry['sigma_um'])}{by} of waves from {length_text(1 / high)} to "
+        f"{length_text(1 / low)}, where the smooth surface reflects {entry['reflectance_taken']:.3g}"
     )
     if entry["phase"] >= 0.1:
         text += f"; the phase is {entry['phase']:.2g}, above 0.1: too rough for the first order, an estimate"
