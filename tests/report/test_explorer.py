@@ -210,6 +210,14 @@ def test_the_page_tells_the_fits_error_and_its_copies_are_read_back(tmp_path):
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("words", [("ggx",), ("ggx", "ward")])
+def test_only_what_a_page_of_so_many_surfaces_can_do_is_shown(words, tmp_path):
+    dom = in_browser(explorer_page(shown(*words), "it"), tmp_path)
+    for name in ("side-b", "wiped", "compared"):
+        assert (f'data-is="{name}" hidden' in dom) == (len(words) < 2), name
+
+
+@pytest.mark.browser
 def test_a_link_keeps_what_was_moved(tmp_path):
     page = explorer_page(shown("ward", "lambertian+ggx"), "link")
     dark = ("--disable-3d-apis", "--blink-settings=preferredColorScheme=0")

@@ -16,9 +16,9 @@ BODY = """<div id="explorer">
 <div class="look"><p data-is="says" aria-live="polite"></p>
 <canvas data-is="picture" width="512" height="512" role="img" aria-label="sphere and bent sheet"></canvas>
 <p class="soft" data-is="card"></p>
-<div class="row" data-is="side-wipe"><label>A <input type="range" data-is="wipe" min="0" max="1" step="0.005"
+<div class="row"><label data-is="wiped">A <input type="range" data-is="wipe" min="0" max="1" step="0.005"
 aria-label="wipe, A to its left, B to its right"> B</label>
-<label>show <select data-is="mode"><option value="wipe">A | B</option><option
+<label data-is="compared">show <select data-is="mode"><option value="wipe">A | B</option><option
 value="difference">B - A in just noticeable differences, full colour at 20</option></select></label>
 <label>sun <select data-is="light"><option>side</option><option>front</option><option>back</option></select></label>
 <label>object <select data-is="object"><option value="0">sphere and sheet</option><option

@@ -225,7 +225,7 @@ function fill() {
     if (more.length) box.append(make('details', {}, make('summary', {}, 'numbers that fits hold'), ...more.map(k => knob(m, k))));
     $('pick-' + side).value = state[side];
   }
-  $('side-b').hidden = S.models.length < 2;
+  for (const name of ['side-b', 'wiped', 'compared']) $(name).hidden = S.models.length < 2;
 }
 
 // ---- the contour of emergence
@@ -335,7 +335,8 @@ function say() {
   const m = S.models[state.a], e = error(m), other = S.models[state.b], f = evaluator(m, 0), at45 = f(...plane(45, 45));
   let half = 0; while (half < 80 && f(...plane(20, Math.min(20 + half, 89))) > .5 * f(...plane(20, 20))) half += .25;
   const seen = 'A ' + m.name + ': ' + short(at45, 3) + ' /sr in the mirror direction at 45°' + (half < 69 ? ', highlight half width ' + short(half, 3) + '°' : ', no highlight at 20°');
-  const fit = e === null ? '' : '; A is typically ' + short(100 * (Math.exp(e) - 1), 2) + ' % off the data (rms ln ' + e.toPrecision(4) + ')' + (other !== m ? ', B rms ln ' + error(other).toPrecision(4) : '');
+  const off = x => (x < Math.LN2 ? short(100 * Math.expm1(x), 2) + ' % off' : 'a factor ' + short(Math.exp(x), 2) + ' off'), exactly = x => ' (rms ln ' + x.toPrecision(4) + ')';
+  const fit = e === null ? '' : '; A is typically ' + off(e) + ' the data' + exactly(e) + (other !== m ? ', B ' + off(error(other)) + exactly(error(other)) : '');
   $('says').textContent = seen + fit + '.'; canvas.setAttribute('aria-label', seen);
   if (e !== null) root.dataset.rms = e;
   $('text').value = state.copy === 'json' ? documentOf(m) : state.copy === 'yaml' ? yaml(m) : state.copy === 'export' ? 'brdfguide export ' + m.knobs.map(k => k.key + '=' + k.value.map(v => short(v, 9)).join(',')).join(' ') + ' --model "' + m.law + '" --to mitsuba -o surface.xml' : words(m);
