@@ -57,8 +57,10 @@ def bench(
     )
     if plot is not None:
         from ..report.figures import cost as drawing
+        from ..report.figures.lines import title_of
 
-        drawing.write_cost(drawing.timed_lines(ranked, result), plot, max(row["n"] for row in result["rows"]), theme)
+        lines = drawing.timed_lines(ranked, result)
+        drawing.write_cost(lines, plot, max(row["n"] for row in result["rows"]), title_of(lines, str(data)), theme)
     answer(result, json, text)
 
 

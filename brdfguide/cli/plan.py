@@ -148,16 +148,12 @@ def _planned(request: PlanRequest):
     if _plain(request):
         learnt = learnt_design.learnt_directions(request.budget, request.in_plane, there)
     if learnt is not None:
-        return planning.plan_of(learnt, target, reach, known, there)
-    return planning.plan_everywhere(
-        target,
-        reach,
-        known,
-        request.budget,
-        scans=request.scans,
-        among=among,
-        measured=there,
-    )
+        found = planning.plan_of(learnt, target, reach, known, there)
+    else:
+        found = planning.plan_everywhere(
+            target, reach, known, request.budget, scans=request.scans, among=among, measured=there
+        )
+    return found if there is None else replace(found, measured=int(measured.has_value.sum()))
 
 
 def _plain(request: PlanRequest) -> bool:

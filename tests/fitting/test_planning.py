@@ -21,6 +21,7 @@ from brdfguide.report.text.plan import plan_text
 
 from .. import synthetic
 from ..conftest import ROOT
+from ..report import probe
 
 GGX = models.get("lambertian+ggx")
 TRUTH = {**models.get("lambertian+student-t").defaults(), "lambertian.albedo": 0.3, "student-t.alpha": 0.2}
@@ -234,9 +235,20 @@ def test_the_table_is_taken_back_once_its_values_are_there(tmp_path, blind):
 def test_the_picture_shows_every_direction(blind):
     document = plan_document(blind, timed=True)
     with style.look():
-        axes = plan_figure(document).axes
-        drawn = sum(len(line.get_xdata()) for axis in axes[:-1] for line in axis.lines if line.get_markersize() == 4.2)
-    assert drawn == 16
+        figure = plan_figure(document)
+        marks = [line for axis in figure.axes for line in axis.lines if line.get_markersize() == 4.2]
+    assert sum(len(line.get_xdata()) for line in marks) == 16
+    assert figure.get_suptitle().replace("\n", " ") == plan_text(document).partition("\n")[0]
+
+
+def test_what_is_expected_is_drawn_where_it_changes_alone(blind):
+    """A panel of one point says no more than the title; no label of any leaves the picture."""
+    document = plan_document(blind, timed=True)
+    block = document["blocks"][0] | {"expected_before": 2.0}
+    with style.look():
+        one, today = (plan_figure(document | {"blocks": [each]}) for each in (document["blocks"][0], block))
+    assert len(today.axes) == len(one.axes) + 1
+    assert probe.faults(one) == probe.faults(today) == []
 
 
 @pytest.mark.parametrize(
@@ -253,6 +265,15 @@ def test_the_picture_shows_every_direction(blind):
 def test_what_does_not_go_together_is_refused(words, sentence):
     run = subprocess.run([sys.executable, "-m", "brdfguide", "plan", *words], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 2 and sentence in run.stderr
+
+
+def test_all_that_were_measured_are_counted(capsys):
+    from brdfguide.cli import main
+
+    with pytest.raises(SystemExit):
+        main(["plan", "--after", str(ROOT / "examples" / "white_paper.csv"), "--budget", "1", "--json", "-q"])
+    document = json.loads(capsys.readouterr().out)
+    assert document["measured_before"] == 480  # of which half stand for all
 
 
 def test_a_scene_asks_for_its_own_directions():

@@ -42,13 +42,13 @@ def _texts(fig: Figure):
 
 
 def _is_drawn(fig: Figure, text: Text) -> bool:
-    """Ticks beyond the limits are kept by matplotlib and not drawn."""
+    """Ticks beyond the limits, and of panels without axes, are kept by matplotlib and not drawn."""
     for axis in fig.axes:
         for which in (axis.xaxis, axis.yaxis):
             ticks = which.get_major_ticks() + which.get_minor_ticks()
             if any(text in (tick.label1, tick.label2) for tick in ticks):
                 low, high = sorted(which.get_view_interval())
-                return any(
+                return axis.axison and any(
                     low <= tick.get_loc() <= high and (text is tick.label1 or tick.label2.get_visible())
                     for tick in ticks
                     if text in (tick.label1, tick.label2)

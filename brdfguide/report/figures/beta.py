@@ -33,7 +33,7 @@ def plot_beta(ranking, measurement: Measurement, path, theme: str = style.LIGHT)
         strip.set_ylabel("ln(model/data)")
         strip.set_xlabel("|β - β0|, distance from the mirror direction in direction sines")
         top.grid(True)
-        title = title_of(lines_of(ranking), measurement)
+        title = title_of(lines_of(ranking), measurement.name)
         fig.legend(loc="outside upper left", ncols=2, title=title, title_fontsize=9, alignment="left")
         style.save(fig, path, theme)
 

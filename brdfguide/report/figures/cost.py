@@ -13,15 +13,18 @@ from .lobes import plain_log
 TIME = "time per sample [ns], our NumPy in batches of this file's size: not a shader's cost"
 STEP = 5  # points, between places that are tried for a name
 LETTER_PT = 7
+GAP_PT = 4.0  # between names on one line, which would read as one word
 LEAST_ROW_MM = 3.4
 NEAR_PT, FAR_PT = 11.0, 60.0  # how far a name is from its point: beyond, a leader leads there; none leads farther
 CLEAR = 6.0  # points about its own, where a leader is not looked at
 
 
-def plot_cost(lines: list[Line], width_mm=180, height_mm=72, time: str = TIME):
+def plot_cost(lines: list[Line], width_mm=180, height_mm=72, time: str = TIME, title: str = ""):
     """A figure of error against run time."""
     with style.look():
         fig = style.figure(width_mm, cost_height_mm(lines, height_mm))
+        if title:
+            style.title(fig, title)
         draw_cost(fig, lines, time)
         return fig
 
@@ -43,10 +46,10 @@ def timed_lines(ranking, timing: dict) -> list[Line]:
     ]
 
 
-def write_cost(lines: list[Line], path, samples: int, theme: str = style.LIGHT) -> None:
+def write_cost(lines: list[Line], path, samples: int, title: str, theme: str = style.LIGHT) -> None:
     """Draw error against run time for so many samples at once into `path`, a .png, .svg or .pdf file."""
-    words = f"time per sample [ns], our NumPy at {samples:g} samples at once: not a shader's cost"
-    style.save(plot_cost(lines, 180, 110, words), path, theme)
+    words = f"time per sample [ns], our NumPy at {samples} samples at once: not a shader's cost"
+    style.save(plot_cost(lines, 180, 110, words, title), path, theme)
 
 
 def draw_cost(fig, lines: list[Line], words: str = TIME) -> None:
@@ -122,7 +125,7 @@ def _name_points(fig, axis, lines: list[Line], at, stairs, legend) -> None:
         dx, dy, box, leads, clear = _free_place(x, y, width, frame, taken, steps)
         if not (clear or line.on_front or line.recommended):
             continue
-        taken.append(box)
+        taken.append((box[0] - GAP_PT, box[1], box[2] + GAP_PT, box[3]))
         if leads:
             end = ((np.clip(x, box[0], box[2]) - box[0]) / width, 0.0 if box[1] > y else 1.0)
             look["arrowprops"] = {

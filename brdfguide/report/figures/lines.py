@@ -81,9 +81,9 @@ def shown_lines(lines: list[Line]) -> list[Line]:
     return [line for line in lines if line.name in wanted]
 
 
-def title_of(lines: list[Line], measurement: Measurement) -> str:
-    """The file, and what was done."""
-    file = printable.label(Path(measurement.name).name, 60) if measurement.name else ""
+def title_of(lines: list[Line], name: str | None) -> str:
+    """The file of the measurement, and what was done."""
+    file = printable.label(Path(name).name, 60) if name else ""
     done = f"{len(lines)} models fitted" if len(lines) > 1 else f"{lines[0].name} fitted"
     return f"{file}: {done}" if file else done
 

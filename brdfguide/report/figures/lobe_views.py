@@ -44,7 +44,7 @@ def plot_polar(ranking, measurement: Measurement, path, theme: str = style.LIGHT
             axis.set_title(f"$\\theta_i$ = {panel.theta_i:g}°", loc="left", y=0.78)
         handles = [Line2D([], [], ls="", marker="o", color=style.INK, ms=3, mew=0, label="data")]
         handles += [Line2D([], [], label=line.words, **line.look) for line in lines]
-        title = title_of(lines_of(ranking), measurement)
+        title = title_of(lines_of(ranking), measurement.name)
         fig.legend(handles=handles, loc="upper left", ncols=3, title=title, title_fontsize=9, alignment="left")
         style.origin(fig, f"rings: decades of the BRDF, the outermost {10.0**high:g}/sr; the arrow is the light")
         style.save(fig, path, theme)
@@ -67,8 +67,8 @@ def plot_in_space(ranking, measurement: Measurement, path, theme: str = style.LI
             _surface(axis, directions, _radius(values, low, high) / (high - low))
             _stage(axis, panel.theta_i)
             fig.text((place + 0.06) / len(shown), 0.84, f"$\\theta_i$ = {panel.theta_i:g}°", fontsize=8.5)
-        title = title_of(lines, measurement) + (f"; {line.name}, recommended" if len(lines) > 1 else "")
-        fig.suptitle(title, fontsize=9, x=0.01, ha="left")
+        title = title_of(lines, measurement.name) + (f"; {line.name}, recommended" if len(lines) > 1 else "")
+        style.title(fig, title)
         words = f"radius: decades of the BRDF above {10.0**low:.2g}/sr, the longest {10.0**high:.2g}/sr"
         style.origin(fig, f"{words}; the arrow is the light, the line the mirror direction")
         style.save(fig, path, theme)

@@ -230,5 +230,5 @@ def plot_figure(number: int, measurement: Measurement | None = None, origin: str
             fig = steel(measurement, origin)
         else:
             return four_models(measurement, number, origin)
-        fig.suptitle(TITLES[number], fontsize=9, x=0.01, ha="left")
+        style.title(fig, TITLES[number])
         return fig

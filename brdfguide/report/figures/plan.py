@@ -1,7 +1,9 @@
 """A plan as a picture: where the detector goes for every incidence, and what is expected after each block."""
 
 import numpy as np
+from matplotlib.lines import Line2D
 
+from ..text.plan import plan_head
 from . import style
 
 COLUMNS = 4
@@ -9,18 +11,37 @@ MOST_PANELS = 12
 
 
 def plan_figure(document: dict):
-    """Panels of incidences, the detector's hemisphere from above, mirror direction to the right; below, the promise.
+    """Panels of incidences, the detector's hemisphere from above, mirror direction to the right; below, the promise
+    where it changes from block to block.
 
     Call inside `style.look()`.
     """
     groups = _by_incidence(document)
     rows = -(-len(groups) // COLUMNS)
-    fig = style.figure(180, 40 * rows + 48)
-    grid = fig.add_gridspec(rows + 1, COLUMNS, height_ratios=[1.0] * rows + [1.05])
+    changes = len(document["blocks"]) > 1 or document["blocks"][0]["expected_before"] is not None
+    fig = style.figure(180, 40 * rows + 12 + 42 * changes)
+    style.title(fig, plan_head(document)[0])
+    grid = fig.add_gridspec(rows + changes, COLUMNS, height_ratios=[1.0] * rows + [1.05] * changes)
     for place, (label, points) in enumerate(groups):
         _panel(fig.add_subplot(grid[place // COLUMNS, place % COLUMNS]), label, points)
-    _promise(fig.add_subplot(grid[rows, :]), document)
+    marks = _marks(len(document["blocks"]))
+    fig.legend(handles=marks, loc="outside lower center", ncols=min(len(marks), 8))
+    if changes:
+        _promise(fig.add_subplot(grid[rows, :]), document)
     return fig
+
+
+def _block_look(number: int) -> dict:
+    colour = style.COLOURS[(0, 1, 2, 3, 5, 6)[number % 6]]
+    return {"marker": style.MARKERS[number % len(style.MARKERS)], "color": colour, "ls": "", "mew": 0}
+
+
+def _marks(blocks: int) -> list[Line2D]:
+    """What the marks of all panels mean."""
+    light = Line2D([], [], marker="o", ls="", ms=6, mfc="none", mec=style.COLOURS[4], mew=1.1, label="light")
+    mirror = Line2D([], [], marker="+", ls="", ms=7, color=style.INK, mew=0.8, label="mirror direction")
+    each = [Line2D([], [], ms=5.5, label=f"block {number + 1}", **_block_look(number)) for number in range(blocks)]
+    return [*each, light, mirror]
 
 
 def _by_incidence(document: dict) -> list[tuple[str, list]]:
@@ -55,9 +76,7 @@ def _panel(axis, label: str, points: list) -> None:
         chosen = [each for each in points if each[3] == block]
         azimuth = np.radians([180.0 - each[2] for each in chosen])
         radius = np.array([each[1] for each in chosen])
-        marker = style.MARKERS[block % len(style.MARKERS)]
-        colour = style.COLOURS[(0, 1, 2, 3, 5, 6)[block % 6]]
-        axis.plot(radius * np.cos(azimuth), radius * np.sin(azimuth), marker, ms=4.2, mew=0, color=colour)
+        axis.plot(radius * np.cos(azimuth), radius * np.sin(azimuth), ms=4.2, **_block_look(block))
     axis.set_title(label, loc="center")
     axis.set_aspect("equal")
     axis.set_xlim(-97, 97)
@@ -66,28 +85,23 @@ def _panel(axis, label: str, points: list) -> None:
 
 
 def _promise(axis, document: dict) -> None:
-    """What is expected after each block, and a legend of the marks."""
+    """What is expected after each block."""
     blocks = document["blocks"]
     counts = np.cumsum([len(each["directions"]) for each in blocks])
     after = [each["expected_after"] for each in blocks]
     known = [blocks[0]["expected_before"]] if blocks[0]["expected_before"] is not None else []
     axis.plot([0] * len(known) + counts.tolist(), known + after, "-", color=style.RULE, lw=1.2, zorder=1)
     for number, (count, value) in enumerate(zip(counts, after, strict=True)):
-        colour = style.COLOURS[(0, 1, 2, 3, 5, 6)[number % 6]]
-        marker = style.MARKERS[number % len(style.MARKERS)]
-        axis.plot(count, value, marker, ms=5.5, mew=0, color=colour, label=f"block {number + 1}", zorder=2)
-    axis.plot([], [], "o", ms=6, mfc="none", mec=style.COLOURS[4], mew=1.1, label="light")
-    axis.plot([], [], "+", ms=7, color=style.INK, mew=0.8, label="mirror direction")
+        axis.plot(count, value, ms=5.5, zorder=2, **_block_look(number))
     axis.set_xlim(0, counts[-1] * 1.05)
     axis.margins(y=0.25)
     axis.set_xlabel("directions measured")
     axis.set_ylabel(NAMES[document["purpose"]])
     axis.grid(True)
-    axis.legend(ncols=1, loc="center left", bbox_to_anchor=(1.01, 0.5))
 
 
 NAMES = {
-    "error": "expected error over all directions\n(1: a fit to all of them)",
+    "error": "expected error\n(1: a fit to all directions)",
     "tell": "difference of the two models\n(noises of one value)",
     "pin": "standard error left\n(1: today's)",
 }

@@ -25,7 +25,7 @@ def plot_ranking(ranking, measurement: Measurement, path, theme: str = style.LIG
         above, *middle, below = fig.subfigures(len(parts), 1, squeeze=False, height_ratios=parts)[:, 0]
         if grain is not None:
             draw_grain(middle[0], grain, lines)
-        draw_lobes(above, shown_lines(lines), measurement, title_of(lines, measurement))
+        draw_lobes(above, shown_lines(lines), measurement, title_of(lines, measurement.name))
         draw_cost(below, lines)
         style.save(fig, path, theme)
 
@@ -40,7 +40,7 @@ def ranking_figures(ranking, measurement: Measurement) -> list[PageFigure]:
     grain = grain_of(measurement)
     return [
         (
-            style.figure_file(plot_lobes(plotted, measurement, title=title_of(lines, measurement))),
+            style.figure_file(plot_lobes(plotted, measurement, title=title_of(lines, measurement.name))),
             "BRDF against reflection angle, on a log axis as the guide plots it, and what each model leaves over.",
         ),
         *([] if grain is None else [(style.figure_file(plot_grain(grain, lines)), GRAIN_WORDS)]),

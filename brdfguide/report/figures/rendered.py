@@ -23,7 +23,7 @@ def rendered_figure(number: int, made: Rendering, origin: str):
             axis.imshow(np.clip(render.tone(radiance), 0, 1), interpolation="nearest")
             axis.set_title(name, fontsize=7.5)
             axis.set_axis_off()
-        fig.suptitle(TITLES[number], fontsize=9, x=0.01, ha="left")
+        style.title(fig, TITLES[number])
         claims = [f"{words}: {value:.{FINE}g}" for words, value in made.claims]
         style.origin(fig, "\n".join([*claims, origin]))
     return fig

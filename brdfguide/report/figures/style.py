@@ -19,7 +19,7 @@ from .palette import COLOURS, DARK, DASHES, INK, LIGHT, MARKERS, PAPER, RULE
 
 __all__ = [
     "COLOURS", "DARK", "DASHES", "INK", "LIGHT", "MARKERS", "PAPER", "RULE",
-    "PageFigure", "figure", "figure_file", "look", "origin", "save", "freeze_layout",
+    "PageFigure", "figure", "figure_file", "look", "origin", "save", "title", "freeze_layout",
 ]  # fmt: skip
 # of a page: an SVG file, or pictures as (PNG file, name, words); and a caption of the whole
 PageFigure = tuple[bytes | list[tuple[bytes, str, str]], str]
@@ -80,6 +80,11 @@ def look():
 def figure(width_mm: float = 180, height_mm: float = 120) -> Figure:
     """An empty figure of a journal's width; call inside `look()`."""
     return Figure(figsize=(width_mm / 25.4, height_mm / 25.4), dpi=DOTS_PER_INCH, layout="constrained")
+
+
+def title(fig, text: str) -> None:
+    """What the whole figure shows, above it, on as many lines as it takes."""
+    fig.suptitle("\n".join(wrap(text, int(fig.get_figwidth() * 72 / 4.7))), fontsize=9, x=0.01, ha="left")
 
 
 def origin(fig, text: str) -> None:

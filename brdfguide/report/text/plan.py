@@ -6,11 +6,12 @@ from .table import columns
 def plan_text(result: dict) -> str:
     """What it is for and what it gives, then every block with its directions or scans."""
     return "\n\n".join(
-        [_head(result), *(_block(number, each) for number, each in enumerate(result["blocks"], start=1))]
+        ["\n".join(plan_head(result)), *(_block(number, each) for number, each in enumerate(result["blocks"], start=1))]
     )
 
 
-def _head(result: dict) -> str:
+def plan_head(result: dict) -> list[str]:
+    """Lines: what it gives, what it takes, and that what was seen changes the rest."""
     last, first = result["blocks"][-1], result["blocks"][0]
     count = f"{result['directions']} direction{'s' * (result['directions'] != 1)}"
     there = f" beside the {result['measured_before']} that were measured" if result["measured_before"] else ""
@@ -28,7 +29,7 @@ def _head(result: dict) -> str:
         lines.append(f"takes {_time(result['seconds'])}")
     if len(result["blocks"]) > 1:
         lines.append("measure a block, then plan again with --after: what was seen changes what is worth measuring")
-    return "\n".join(lines)
+    return lines
 
 
 def _time(seconds: float) -> str:
