@@ -1,7 +1,7 @@
 """A surface as the table that a goniometer would have measured, for programs that read such tables.
 
 About the mirror direction the angles are close there and wide elsewhere, since a lobe keeps its shape there from one
-incidence to the next; about the normal they are even. There are more of them until a reader that interpolates linearly
+incidence to the next; about the normal they are even, but for azimuths, which are close near the mirror direction's. There are more of them until a reader that interpolates linearly
 is within `CLOSE` of the surface, or the table is as large as such programs take; how far off it is stands beside it.
 Numbers of nodes: ours.
 """
@@ -16,6 +16,7 @@ from ...data.measurement import Measurement
 from ...errors import InputError
 from ...physics.colour import CHANNEL_UM
 from ...physics.geometry import Geometry, rows
+from ...printable import off_words
 from ...records import dataclass
 from .._directions import half_width, off_peak
 from ..exporter import ColouredSurface, Export, Exporter, Statement, refuse_mirror
@@ -32,7 +33,9 @@ LEVELS = (  # steps of incidence and azimuth [deg], first step as a part of the 
     (2.5, 6.0, 0.06, 1.06),
     (1.25, 4.0, 0.05, 1.05),
 )
-ABOUT_NORMAL = ((10.0, 10.0, 5.0), (5.0, 5.0, 2.5), (2.5, 4.0, 1.5))  # steps of incidence, azimuth and angle [deg]
+# steps of incidence, of azimuth away from the mirror direction, and of the angle [deg]
+ABOUT_NORMAL = ((10.0, 10.0, 5.0), (5.0, 6.0, 2.5), (2.5, 5.0, 1.5), (1.25, 4.0, 1.0))
+NEAR, NEAR_GROWTH, NEAREST_DEG = 0.12, 1.2, 0.1  # of azimuths there: first step over half width, growth, the finest
 
 
 OF_DENSE = ("average_phi_i", "wavelength")  # options that a dense table heeds when it is sampled
@@ -122,11 +125,20 @@ def at_nodes(brdf: Callable[[Geometry], np.ndarray], level: int, width: float, a
         step_i, step_a, step = ABOUT_NORMAL[level]
         nodes = np.append(np.arange(0.0, 89.0, step), STEEPEST_DEG)
     theta_i = np.append(np.arange(0.0, 86.0, step_i), 85.0 if step_i > 5 else STEEPEST_DEG - 1)
-    theta_i, azimuth = np.unique(theta_i), np.arange(0.0, 180.0 + step_a / 2, step_a)
+    theta_i = np.unique(theta_i)
+    azimuth = np.arange(0.0, 180.0 + step_a / 2, step_a) if about_mirror else _azimuths(width, step_a)
     light, around, away = np.meshgrid(theta_i, azimuth, nodes, indexing="ij")
     theta_r, phi = _directions(light, around, away, about_mirror)
     geom = rows(Geometry.from_degrees(light.ravel(), 0.0, np.minimum(theta_r, STEEPEST_DEG).ravel(), phi.ravel()))
     return Sampled(theta_i, azimuth, nodes, brdf(geom).reshape(*light.shape, -1), about_mirror)
+
+
+def _azimuths(width: float, widest: float) -> np.ndarray:
+    """About the normal, 0..180 [deg]: a lobe of half width `width` is as narrow across as along the plane of incidence."""
+    away = [0.0, float(np.clip(NEAR * width, NEAREST_DEG, widest))]
+    while away[-1] < 180:
+        away.append(away[-1] + min((away[-1] - away[-2]) * NEAR_GROWTH, widest))
+    return np.unique(np.round(np.append(0.0, 180.0 - np.array(away[:-1])), 3))
 
 
 @dataclass(frozen=True)
@@ -185,7 +197,8 @@ def _closest(brdf, width: float, about_mirror: bool) -> tuple[Sampled, str]:
     held = "" if most <= 100 * CLOSE else f"; {100 * CLOSE:g} % could not be held"
     note = (
         f"a table of {len(made.theta_i)} incidences, {len(made.azimuth)} azimuths and {len(made.polar)} angles: read "
-        f"linearly it is within {usual:.2g} % of the surface in 95 of 100 directions and {most:.2g} % in all, {where}"
+        f"linearly it is within {off_words(usual)} of the surface in 95 of 100 directions and {off_words(most)} in all, "
+        f"{where}"
     )
     return made, note + held
 
