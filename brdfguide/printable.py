@@ -15,6 +15,7 @@ MOST_LINES = 60  # of an error
 MOST_OF_A_NAME = 80  # letters of an identifier, and of what is quoted in a sentence
 LEAST_PERCENT = 1e-3  # what is less is printed as none
 LEAST_NOISE = 1e-4  # of values, below which it is told as less than this
+MOST_SPELT = 1e5  # of a factor in words; beyond, its power of ten
 MOST_BYTES = 255  # of a file's name, where file systems end
 SHORT = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 # Words of the languages that we write; a name may be one of them, an identifier may not.
@@ -190,7 +191,10 @@ def off_words(percent: float) -> str:
     """How far off a model typically is; what is no longer a percentage as a factor."""
     if percent < 9.95:
         return f"{percent if percent >= LEAST_PERCENT else 0:.2g} %"
-    return f"{percent:.0f} %" if percent < 99.5 else f"a factor {min(1 + percent / 100, 1e9):.2g}"
+    if percent < 99.5:
+        return f"{percent:.0f} %"
+    factor = float(f"{min(1 + percent / 100, 1e9):.2g}")
+    return f"a factor {factor:.0f}" if 100 <= factor < MOST_SPELT else f"a factor {factor:.2g}"
 
 
 def off_words_of(rms_ln: float) -> str:

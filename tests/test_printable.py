@@ -114,3 +114,15 @@ def test_signs_that_an_encoding_lacks_are_shown_in_those_that_it_has(encoding):
     assert prints(shown) and "0.1" in shown and "?" not in shown
     if encoding == "ascii":
         assert shown == r"0.1+-0.02 at 45 deg sigma 1 um, e \u767d : # \xff"
+
+
+def test_how_far_off_is_a_percentage_or_a_factor_in_plain_digits():
+    told = {
+        0.0001: "0 %",
+        7.44: "7.4 %",
+        42.4: "42 %",
+        99.6: "a factor 2",
+        10_700.0: "a factor 110",
+        1e13: "a factor 1e+09",
+    }
+    assert {percent: printable.off_words(percent) for percent in told} == told

@@ -15,7 +15,7 @@ from ..errors import InputError, NoAnswer
 from ..models.surface import Surface
 from ..physics import colour
 from ..physics.geometry import Geometry, rows
-from ..printable import comment
+from ..printable import comment, off_words_of
 from ..records import dataclass
 
 GLINT = 0.01  # of the light: a mirror weaker than this up to 60 degrees may be left out, and is said to be
@@ -106,11 +106,14 @@ class Statement:
         """One line for a person."""
         lost = "; ".join(self.lost)
         if self.measured_rms_ln is not None:
-            lost = "; ".join([f"against the measurement rms ln {self.measured_rms_ln:.2g}", *self.lost])
+            lost = "; ".join([f"against the measurement {_off(self.measured_rms_ln)}", *self.lost])
         look = "" if self.seen is None else f", seen {self.seen:.1f} L*"
-        return f"{self.target}: {self.status}, rms ln {self.rms_ln:.2g}{look} over {self.over}" + (
-            f"; {lost}" if lost else ""
-        )
+        said = f"{self.target}: {self.status}, {_off(self.rms_ln)}{look} over {self.over}"
+        return f"{said}; {lost}" if lost else said
+
+
+def _off(rms_ln: float) -> str:
+    return f"{off_words_of(rms_ln)} off (rms ln {rms_ln:.2g})"
 
 
 @dataclass(frozen=True, repr=False)

@@ -13,7 +13,7 @@ from pathlib import Path
 from .. import __version__, printable
 from ..files import write_whole
 from ..opening import is_plain
-from ..printable import off_words
+from ..printable import off_words, off_words_of
 from . import sheet
 from .documents.plain import plain
 from .elements import (
@@ -88,11 +88,11 @@ def _answer(document) -> str:
         off = off_words(pick["off_percent"])
         doubt = document.get("no_answer")
         text = f"<strong>No trustworthy answer</strong><p>{escape(html_sentence(doubt))}</p>" if doubt else ""
-        text += f"<strong>{escape(name_of(pick))}</strong><p>Typically {off} off: rms ln error {pick['rms_ln']:.3g}."
+        text += f"<strong>{escape(name_of(pick))}</strong><p>Typically {off} off (rms ln {pick['rms_ln']:.3g})."
         if pick.get("seen") is not None:
             text += f" On a sphere under lamps all around it {escape(pick['seen_says'])}: {pick['seen']:.1f} L*."
         if pick.get("held_out_rms_ln") is not None:
-            text += f" At incidence angles left out of the fit {pick['held_out_rms_ln']:.3g}."
+            text += f" {off_words_of(pick['held_out_rms_ln'])} off at incidence angles that it was not fitted to."
         text += f"</p><p>{escape(document.get('because', ''))}</p>"
         free = {key: entry["value"] for key, entry in pick["parameters"].items() if not entry.get("derived")}
         return f'<div class="answer">{text}<p>{typed(free)}</p>{outside}</div>'

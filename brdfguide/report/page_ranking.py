@@ -2,6 +2,7 @@
 
 from html import escape
 
+from ..printable import off_words_of
 from .documents.findings import codes
 from .elements import html_number, html_table, name_of
 from .page_floor import floor_bar
@@ -15,7 +16,7 @@ def ranking(document) -> str:
     timed = any(row.get("time_per_sample_ns") for row in rows)
     held = any(row.get("held_out_rms_ln") is not None for row in rows)
     header = (
-        ["rank", "model", "rms ln", "", "seen L*", "side by side", "behind the best"]
+        ["rank", "model", "off", "", "seen L*", "side by side", "behind the best"]
         + ["held out"] * held
         + ["ns per sample"] * timed
         + ["flags"]
@@ -25,19 +26,21 @@ def ranking(document) -> str:
         cells = [
             f"{row['rank']}{'=' if row.get('tied') and row['rank'] == 1 else ''}",
             escape(name_of(row)),
-            f"{row['rms_ln']:.3g}",
-            f'<span class="bar" style="width:{4 * row["rms_ln"] / worst:.2f}rem"></span>',
+            f'<span title="rms ln {row["rms_ln"]:.3g}">{off_words_of(row["rms_ln"])}</span>',
+            f'<span class="bar" style="width:{1.2 * row["rms_ln"] / worst:.2f}rem"></span>',
             html_number(row.get("seen"), 2) + ("~" if row.get("close") else ""),
             escape(_band(row)),
             _behind(row),
         ]
-        cells += [html_number(row.get("held_out_rms_ln"))] * held
+        held_out = row.get("held_out_rms_ln")
+        cells += ["" if held_out is None else off_words_of(held_out)] * held
         cells += [html_number(row.get("time_per_sample_ns")) + (" ◆" if row.get("on_front") else "")] * timed
         cells += [escape(", ".join(codes(row.get("flags", ()))).replace(" %", "\u00a0%"))]
         lines.append((cells, name_of(row) == document.get("recommended")))
     front = "◆ no other model is better in both error and operations. " if timed else ""
     note = (
-        f'<p class="soft">{front}= cannot be told from the best by these data. ~ comes close enough to it. seen: '
+        f'<p class="soft">off: typically, from the data; behind the best: in rms ln; held out: off at incidence angles '
+        f"that were not fitted. {front}= cannot be told from the best by these data. ~ comes close enough to it. seen: "
         f"rms difference in lightness of two spheres, averaged over lamps all around (weights: "
         f"{escape(str(document.get('seen_weights')))}); below 3.5 they look alike side by side.</p>"
     )

@@ -153,7 +153,8 @@ def test_the_answer_comes_first(fitted):
     )
     assert "On a sphere under lamps all around it looks alike side by side: 0.4 L*." in words
     assert " 0.43~ " in words and "~ comes close enough to it" in words
-    assert "At incidence angles left out of the fit 0.0172" in words
+    assert "1.7 % off at incidence angles that it was not fitted to" in words
+    assert re.search(r'>lambertian\+ward<.*?<span title="rms ln 0.0131">1.3 %</span>', fitted, re.S)
 
 
 def test_nothing_comes_from_elsewhere(fitted):

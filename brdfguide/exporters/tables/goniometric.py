@@ -1,8 +1,9 @@
 """A surface as the table that a goniometer would have measured, for programs that read such tables.
 
 About the mirror direction the angles are close there and wide elsewhere, since a lobe keeps its shape there from one
-incidence to the next; about the normal they are even, but for azimuths, which are close near the mirror direction's. There are more of them until a reader that interpolates linearly
-is within `CLOSE` of the surface, or the table is as large as such programs take; how far off it is stands beside it.
+incidence to the next; about the normal they are even, but for azimuths, which are close near that of the mirror
+direction. There are more of them until a reader that interpolates linearly is within `CLOSE` of the surface, or the
+table is as large as such programs take; how far off it is stands beside it.
 Numbers of nodes: ours.
 """
 
@@ -134,7 +135,7 @@ def at_nodes(brdf: Callable[[Geometry], np.ndarray], level: int, width: float, a
 
 
 def _azimuths(width: float, widest: float) -> np.ndarray:
-    """About the normal, 0..180 [deg]: a lobe of half width `width` is as narrow across as along the plane of incidence."""
+    """0..180 [deg] about the normal: a lobe of half width `width` is as narrow across as in the plane of incidence."""
     away = [0.0, float(np.clip(NEAR * width, NEAREST_DEG, widest))]
     while away[-1] < 180:
         away.append(away[-1] + min((away[-1] - away[-2]) * NEAR_GROWTH, widest))
@@ -197,8 +198,8 @@ def _closest(brdf, width: float, about_mirror: bool) -> tuple[Sampled, str]:
     held = "" if most <= 100 * CLOSE else f"; {100 * CLOSE:g} % could not be held"
     note = (
         f"a table of {len(made.theta_i)} incidences, {len(made.azimuth)} azimuths and {len(made.polar)} angles: read "
-        f"linearly it is within {off_words(usual)} of the surface in 95 of 100 directions and {off_words(most)} in all, "
-        f"{where}"
+        f"linearly it is within {off_words(usual)} of the surface in 95 of 100 directions and {off_words(most)} in "
+        f"all, {where}"
     )
     return made, note + held
 
