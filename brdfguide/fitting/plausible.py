@@ -131,11 +131,16 @@ def lobe_too_bright(model: Composite, values: Mapping, theta_i_deg: float) -> Lo
     theta = theta_i_deg if theta_i_deg > LOW_DEG else 0.0
     cos = np.cos(np.radians(theta))
     for term in model.terms:
-        if term.model.has_index and not term.model.base and not np.any(values[term.key("k")]):
+        if _has_height(term.model) and not np.any(values[term.key("k")]):
             level = level + values[term.key(term.model.amplitude or "")] * fresnel.fresnel(cos, values[term.key("n")])
     found = float(np.median(level))
     most, least = (float(fresnel.fresnel(cos, *each)) for each in (_BRIGHTEST, _DARKEST))
     return Lobe(theta, found, most) if found**2 > most * least else None
+
+
+def _has_height(law: Model) -> bool:
+    """Whether it is a lobe with an index and a height of its own, as a mirror and what lies under a coat have not."""
+    return law.is_lobe and law.has_index and not law.base
 
 
 def _is_determined(row: Row) -> bool:
@@ -149,7 +154,7 @@ def _keeps_energy(row: Row) -> bool:
     x F0, median over the channels."""
     values, level = {**row.fit.model.defaults(), **row.fit.values}, np.zeros(1)
     for term in row.fit.model.terms:
-        if term.model.has_index and not term.model.base:
+        if _has_height(term.model):
             n, k, height = (values[term.key(name)] for name in ("n", "k", term.model.amplitude or ""))
             level = level + height * fresnel.f0(n, k)
     return float(np.median(level)) < MOST_RETURNED

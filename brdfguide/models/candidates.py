@@ -178,14 +178,15 @@ def as_metal(model: Composite) -> Composite:
     """The same sum with Fresnel's factor of a metal: n held at 1, k free in each channel.
 
     F0 = k²/(4 + k²) then is the amplitude, between 0 and 1, and F rises to 1 at grazing as it must. Of lobes that share
-    it the first is as high as F0 makes it, the others in proportion.
+    it the first is as high as F0 makes it, the others in proportion. One that is a coat's own surface has the coat's n
+    and stays what a coat is.
     """
     if METAL in settings(model):
         model = set_as(model, METAL)
     held: dict[str, float] = {}
     freed: dict[str, str] = {}  # k -> the height of the first lobe that has it
     for term in model.terms:
-        if term.model.has_index:
+        if term.model.has_index and term.key("n").removesuffix("n") == term.key("k").removesuffix("k"):
             held[term.key("n")] = 1.0
             freed.setdefault(term.key("k"), term.key(term.model.amplitude or ""))
     return replace(

@@ -173,3 +173,8 @@ def test_a_stand_in_with_fresnel_at_a_bound_is_not_taken_for_a_best_without():
     pick, because = picked((best, coat), "look", "dielectric")
     assert pick is best and "lambertian+ggx has a parameter at its bound" in because
     assert picked((best, replace(coat, fit=replace(coat.fit, warnings=()))), "look", "dielectric")[0] is not best
+
+
+@pytest.mark.parametrize("name", ["mirror", "ggx+mirror", "lambertian+mirror"])
+def test_a_mirror_adds_no_height_to_a_lobe(name):
+    assert too_bright_for_a_dielectric(row(name, 0.1, 1)) is None

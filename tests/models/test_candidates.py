@@ -83,3 +83,10 @@ def test_polished_data_bring_the_laws_of_stray_light_and_the_wave_law_beside_the
 def test_a_law_that_asks_to_be_tried_says_so_in_its_own_file():
     asking = [law.name for law in models.every() if law.candidacy is not None]
     assert set(asking) <= set(catalog.saying("models", "Candidacy"))
+
+
+def test_a_lobe_that_is_a_coats_own_surface_stays_dielectric_on_a_metal():
+    (over_body,) = candidates.of_kind("metal", ["ggx+coated:lambertian"])
+    assert not over_body.fixed and not candidates.has_edge(over_body)
+    (over_metal,) = candidates.of_kind("metal", ["ggx+coated:ggx"])
+    assert over_metal.fixed == {"ggx.2.n": 1.0} and over_metal.free == ("coat.n", "ggx.2.k")
