@@ -35,14 +35,16 @@ def with_measurements(answers, measured: list[Data], request) -> None:
         shown = printable.document(result)
         named = [printable.line(str(each.path))] if len(measured) > 1 else []
         ranked = ranking.ranking_text(shown, notes=not output.quiet, full=request.full)
-        texts.append("\n\n".join([*named, measured_text(shown), ranked]) + scene)
+        first, _, rest = ranked.partition("\n\n")  # the answer, and what it rests on
+        texts.append("\n\n".join(filter(None, [*named, first, measured_text(shown), rest])) + scene)
         failed += [stopped] if stopped else []
     if results and output.json:
         several = {"schema": "brdfguide/recommend/1", "recommendations": results}
         print_json(several if len(measured) > 1 else results[0])
     elif results:
-        head = [text(printable.document(advised_document), request.explain, request.full)] if advised_document else []
-        tell("\n\n".join([*head, *texts]))
+        if advised_document:
+            texts.append(text(printable.document(advised_document), request.explain, request.full, measured=True))
+        tell("\n\n".join(texts))
     failed.sort(key=lambda error: error.exit_status)
     for told in failed[:-1]:
         whisper(f"brdfguide: {told}")

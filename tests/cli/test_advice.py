@@ -180,6 +180,16 @@ def test_with_a_measurement_the_fit_decides_and_the_eye_is_compared(tmp_path):
     ] == "cannot tell from this"
 
 
+def test_what_was_measured_is_the_answer_and_stands_above_what_was_described(tmp_path):
+    """The description's own pick stood first, under the same word."""
+    for words, below in (("finish: mirror\n", "alone: "), ("structure: hair\n", "alone no model is recommended: ")):
+        (tmp_path / "it.yaml").write_text(f"kind: dielectric\n{words}")
+        said = run("recommend", str(tmp_path / "it.yaml"), "examples/rough_plastic.csv", "-m", "lambertian+ggx").stdout
+        assert said.startswith("recommended: lambertian+ggx, typically 9.9 % off")
+        assert said.index("eye against instrument") < said.index("rank ") < said.index(f"by the description {below}")
+        assert said.count("recommended: ") == 1 + ("hair" in words)
+
+
 def test_measurements_named_in_a_description_are_read_beside_it(tmp_path):
     (tmp_path / "scan.csv").write_text((ROOT / "examples" / "rough_plastic.csv").read_text())
     (tmp_path / "it.yaml").write_text("kind: dielectric\nfinish: satin\nmeasurements: scan.csv\n")

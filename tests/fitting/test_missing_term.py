@@ -94,5 +94,5 @@ def test_it_stands_in_document_and_text():
     text = " ".join(off_plane_text(document).split())
     share = f"{100 * block['share']:.0f} % of what is left"
     assert f"what it lacks looks like a lobe about the light: {share}" in text
-    assert text.endswith("lambertian+ggx+retro has it")
+    assert text.endswith("`-m lambertian+ggx+retro` tries it")
     assert missing_block(None) is None and off_plane_text({"missing": None, "off_plane": None}) == ""

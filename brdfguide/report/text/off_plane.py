@@ -43,5 +43,5 @@ def _missing(term: dict | None):
         return
     said = f"what it lacks looks like {term['words']}: {100 * term['share']:.0f} % of what is left would go"
     others = ", ".join(f"{each['words']} {100 * each['share']:.0f} %" for each in term["beside"])
-    has_it = f"; {term['with_it']} has it" if term["with_it"] else ""
-    yield f"{said} (confidence {term['confidence']:.2f}{f'; {others}' if others else ''}){has_it}"
+    tried = f"; `-m {term['with_it']}` tries it" if term["with_it"] else ""
+    yield f"{said} (confidence {term['confidence']:.2f}{f'; {others}' if others else ''}){tried}"

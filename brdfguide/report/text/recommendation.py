@@ -5,10 +5,11 @@ from .table import columns
 from .values import percent_words
 
 
-def text(document: dict, explain: bool = False, full: bool = False) -> str:
-    """For people: the pick with its numbers, why, what was guessed, what is doubtful, what it cannot do."""
+def text(document: dict, explain: bool = False, full: bool = False, *, measured: bool = False) -> str:
+    """For people: the pick with its numbers, why, what was guessed, what is doubtful, what it cannot do. Where the
+    surface was `measured` too, what was measured is the answer, and this stands below it."""
     answered = bool(document["candidates"]) or explain
-    blocks = [_pick(document), _candidates(document["candidates"], full), _domain(document)]
+    blocks = [_pick(document, measured), _candidates(document["candidates"], full), _domain(document)]
     for title, rules in _rules(document, answered).items():
         if rules and (full or explain or title != INFERRED):
             said = [_item(f"{a['says']}  <- {a['because']}  [{a['section']}, {a['rule']}]") for a in rules]
@@ -55,26 +56,29 @@ def _domain(document: dict) -> str:
     return "\n".join(lines)
 
 
-def _pick(document: dict) -> str:
+def _pick(document: dict, measured: bool) -> str:
     """The model to use, what to type, why, and how far to trust it; or why there is none."""
     if not document["candidates"]:
         reasons = document["domain"]["reasons"]
-        return folded("no model is recommended: " + (reasons[0]["text"] if reasons else "nothing fits"), "", "  ")
-    pick = document["candidates"][0]
+        alone = "by the description alone " if measured else ""
+        why = reasons[0]["text"] if reasons else "nothing fits"
+        return folded(f"{alone}no model is recommended: {why}", "", "  ")
+    pick, head = document["candidates"][0], "by the description alone" if measured else "recommended"
     lines = [
-        folded(f"recommended: {pick['model']}, for {document['name'] or 'this material'}", "", "  "),
+        folded(f"{head}: {pick['model']}, for {document['name'] or 'this material'}", "", "  "),
         _item(f"to type: {_values(pick)}"),
         _item(f"because {pick['why']}"),
-        _item(f"trust: {_trust(document)}"),
+        _item(f"trust: {_trust(document, measured)}"),
     ]
     lines += [_item(f"cannot: {each}") for each in pick["cannot"]]
     return "\n".join([*lines, *map(_item, _shows(pick["shows_from"]))])
 
 
-def _trust(document: dict) -> str:
+def _trust(document: dict, measured: bool) -> str:
     """How far to trust what no instrument has seen, in one sentence."""
     guesses = sum(each["guess"] for each in document["advice"])
-    said = ["start values from a description alone, which a measurement would settle"]
+    decides = "; what was measured decides" if measured else ", which a measurement would settle"
+    said = [f"start values from a description alone{decides}"]
     if guesses:
         said.append(f"{guesses} guess{'es' * (guesses > 1)} below")
     if document["conflicts"]:
