@@ -154,7 +154,7 @@ class Scene:
         around = f"; around it {self.around.describe()}" if self.around else ""
         lights = f"; light {lights}" if lights else ""
         turned = "" if self.turn_deg is None else f"; turned {_spelt(self.turn_deg)} in its plane"
-        size = "" if self.pairs else f"{self.pixels:g} pixels; "
+        size = "" if self.pairs else f"{self.pixels:.0f} pixels; "
         d = self.display
         return (
             f"{self.name}: {views}{lights}{around}{turned}; {size}{self.colour}; "

@@ -54,3 +54,13 @@ def test_the_mirror_side_is_at_180_and_a_negative_angle_is_half_a_turn_away(prin
     bright, dim = (brdfguide.evaluate("ggx alpha=0.2 n=1.5", 45, 45, phi)[0] for phi in (180, 0))
     assert bright > 50 * dim
     assert brdfguide.evaluate("ggx alpha=0.2 n=1.5", 45, -45)[0] == dim
+
+
+def test_a_scan_in_the_plane_of_incidence_has_two_azimuths(tmp_path):
+    """The side of the light was printed as 360."""
+    scan = tmp_path / "scan.csv"
+    scan.write_text("theta_i,theta_r,brdf\n" + "".join(f"30,{theta_r},0.2\n" for theta_r in range(-60, 61, 10)))
+    out = io.StringIO()
+    with redirect_stdout(out), pytest.raises(SystemExit):
+        main(["evaluate", *TYPED, "--data", str(scan)])
+    assert {row["phi_deg"] for row in rows(out.getvalue())} == {"0.0", "180.0"}

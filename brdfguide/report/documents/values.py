@@ -9,6 +9,7 @@ from ...fitting.fit import Fit
 from ...fitting.reading import reading
 from ...models.surface import Surface
 from ...physics.aperture import Instrument
+from ...physics.geometry import Geometry
 from .plain import plain
 
 HEADER = ("theta_i_deg", "theta_r_deg", "phi_deg", "channel", "wavelength_nm", "brdf")
@@ -22,7 +23,7 @@ def document(surface: Surface, instrument: Instrument) -> dict:
     names = [*HEADER, *parts]
     table = []
     for row in range(len(geom)):
-        where = [float(angle[row, 0]) for angle in (geom.theta_i_deg, geom.theta_r_deg, geom.phi_deg)]
+        where = _where(geom, row)
         for column, channel in enumerate(channels):
             table.append(
                 [
@@ -38,13 +39,19 @@ def document(surface: Surface, instrument: Instrument) -> dict:
     return plain({**head, "columns": names, "rows": table})
 
 
+def _where(geom: Geometry, row: int) -> list[float]:
+    """theta_i, theta_r and phi [deg] of a direction, phi from 0 to below 360."""
+    phi = float(geom.phi_deg[row, 0]) % 360.0 % 360.0  # once gives 360 of what is next to nothing below 0
+    return [float(geom.theta_i_deg[row, 0]), float(geom.theta_r_deg[row, 0]), phi]
+
+
 def residuals(fit: Fit, measurement: Measurement) -> dict:
     """Data, model and ln(model/data), a row for each direction and channel that was measured."""
     geom, left = measurement.geom, fit.residuals_on(measurement)
     wavelength = np.broadcast_to(np.atleast_1d(geom.wavelength) * 1e3, measurement.brdf.shape[1:])
     table = []
     for row, column in zip(*np.nonzero(np.isfinite(left)), strict=True):
-        where = [float(angle[row, 0]) for angle in (geom.theta_i_deg, geom.theta_r_deg, geom.phi_deg)]
+        where = _where(geom, row)
         value, ratio = float(measurement.brdf[row, column]), float(left[row, column])
         channel = measurement.channels[column], float(wavelength[column])
         table.append([*where, *channel, value, value * exp(ratio), ratio])

@@ -50,9 +50,10 @@ def _verdict(block: dict) -> str:
             else f"; {_jnd(fresh['worst_visible'])} at worst on directions drawn anew"
         )
     )
-    lines.append(
-        f"  beyond this scene, on a sphere under lamps all around, seen {block['seen']:.1f} L*: {block['seen_words']}"
+    beyond = (
+        f"beyond this scene, on a sphere under lamps all around, seen {block['seen']:.1f} L*: {block['seen_words']}"
     )
+    lines.append(wrapped_text(beyond))
     time = block.get("time_per_sample_ns")
     if time:
         lines.append(
