@@ -69,6 +69,7 @@ COMMANDS = (
     "scatter --tis 0.01 --json",
     "scatter abg a=1e-4 b=1e-5 g=1.8 --json",
     "scatter abc --json",
+    "scatter {abg} --json",
     "evaluate lambertian+ggx --theta-r 0 --json",
     f"evaluate --fit {{fit}} --data {PAPER} --json",
     "export --json",

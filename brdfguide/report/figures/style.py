@@ -84,7 +84,7 @@ def figure(width_mm: float = 180, height_mm: float = 120) -> Figure:
 
 def title(fig, text: str) -> None:
     """What the whole figure shows, above it, on as many lines as it takes."""
-    fig.suptitle("\n".join(wrap(text, int(fig.get_figwidth() * 72 / 4.7))), fontsize=9, x=0.01, ha="left")
+    fig.suptitle("\n".join(wrap(text, int(fig.get_figwidth() * 72 / 4.55))), fontsize=9, x=0.01, ha="left")
 
 
 def origin(fig, text: str) -> None:
