@@ -15,7 +15,7 @@ from ._azimuths import brightness, counter_clockwise, role_of_the_azimuth
 from ._roles import Assigned, missing
 from ._rotations import light_for
 from ._sheet import Sheet
-from .format import Options, Source, check_angle, check_zenith, degrees
+from .format import MARGIN_DEG, Options, Source, check_angle, check_zenith, degrees
 
 OF_COSINES = ("beta_i", "beta_r", "alpha_r", "beta_from_mirror", "x_i", "y_i", "z_i", "x_r", "y_r", "z_r")
 
@@ -129,11 +129,11 @@ def _reflected(angles: Angles, theta_i):
     if angles.has("theta_r"):
         return angles.take("theta_r")
     if angles.has("from_mirror"):
-        angles.note("angle-from-mirror", _from_mirror(angles, "from_mirror", ""), option="--columns")
-        return _with_sign(angles, "from_mirror", _above(theta_i + angles.take("from_mirror")))
+        toward = _toward_grazing(angles, "from_mirror", theta_i, 90.0, "")
+        return _with_sign(angles, "from_mirror", _above(theta_i + toward))
     if angles.has("beta_from_mirror"):
-        angles.note("angle-from-mirror", _from_mirror(angles, "beta_from_mirror", " as sines"), option="--columns")
-        theta_r = _arcsine(angles, "", np.sin(np.radians(theta_i)) + angles.take("beta_from_mirror"))
+        sines = np.sin(np.radians(theta_i))
+        theta_r = _arcsine(angles, "", sines + _toward_grazing(angles, "beta_from_mirror", sines, 1.0, " as sines"))
         return _with_sign(angles, "beta_from_mirror", theta_r)
     if angles.has("beta_r", "alpha_r"):
         along, across = angles.take("beta_r"), angles.take("alpha_r")
@@ -145,8 +145,12 @@ def _reflected(angles: Angles, theta_i):
     raise missing("theta_r", angles.table, angles.source)
 
 
-def _from_mirror(angles: Angles, role: str, how: str) -> str:
-    """The note on angles that count from the mirror direction. Raises InputError where azimuths turn about it."""
+def _toward_grazing(angles: Angles, role: str, mirror, horizon: float, how: str) -> np.ndarray:
+    """Angles or sines from the mirror direction, positive toward grazing; noted. The other way round where they would
+    lead beyond the horizon and so do not.
+
+    Raises InputError where azimuths turn about it.
+    """
     azimuths = [each for each in ("dphi", "phi_r") if angles.has(each)]
     for each in azimuths:
         if np.nanmax(np.abs(angles.take(each)), initial=0.0) > 1e-6:
@@ -155,7 +159,16 @@ def _from_mirror(angles: Angles, role: str, how: str) -> str:
                 "the normal is not said; give theta_r and phi_r about the normal"
             )
         del angles.raw[each]
-    return f"angles count from the mirror direction: added to theta_i{how}, positive toward grazing"
+    given, limit = angles.take(role), horizon * (1 + 1e-6)
+    with np.errstate(invalid="ignore"):
+        beyond = int(np.count_nonzero(np.abs(mirror + given) > limit))
+        turned = beyond > 0 and np.any(given < 0) and not np.any(np.abs(mirror - given) > limit)
+    sense = "positive toward grazing"
+    if turned:
+        sense = f"positive toward the normal: the other way {beyond} would lie beyond the horizon"
+    text = f"angles count from the mirror direction: added to theta_i{how}, {sense}"
+    angles.note("angle-from-mirror", text, option="--columns")
+    return 0.0 - given if turned else given
 
 
 def _with_sign(angles: Angles, role: str, theta_r) -> np.ndarray:
@@ -189,6 +202,7 @@ def _with_azimuths(angles: Angles, theta_i, theta_r):
     """The four angles out of zeniths and whatever is said of azimuths, and whether anything is."""
     raw = angles.raw
     theta_i, theta_r = _unswapped(angles, theta_i, theta_r)
+    theta_i, theta_r = _of_a_circle(angles, "theta_i", theta_i), _of_a_circle(angles, "theta_r", theta_r)
     for name, theta in (("theta_i", theta_i), ("theta_r", theta_r)):
         check_zenith(angles.source, name, np.where(np.isfinite(theta), theta, 0.0), angles.table.lines)
     phi_i = angles.take("phi_i") if "phi_i" in raw else np.zeros_like(theta_i)
@@ -213,7 +227,7 @@ def _unswapped(angles: Angles, theta_i, theta_r):
     phis = np.concatenate([raw["phi_i"], raw["phi_r"]])
     thetas = np.concatenate([theta_i, theta_r])
     phis, thetas = phis[np.isfinite(phis)], thetas[np.isfinite(thetas)]
-    if not len(phis) or np.abs(phis).max() > 90.005:
+    if not np.any(phis) or np.abs(phis).max() > 90.005:
         return theta_i, theta_r
     still = all(len(np.unique(each[np.isfinite(each)])) == 1 for each in (theta_i, theta_r))
     if np.abs(thetas).max(initial=0.0) <= 90.005 and not (still and len(np.unique(phis)) > 3):
@@ -224,6 +238,18 @@ def _unswapped(angles: Angles, theta_i, theta_r):
     zeniths = raw["phi_i"], raw["phi_r"]
     raw["phi_i"], raw["phi_r"] = theta_i, theta_r
     return zeniths
+
+
+def _of_a_circle(angles: Angles, role: str, theta) -> np.ndarray:
+    """Zenith angles [deg] of an arm that counts from 0 to 360, with a sign: 350 is -10."""
+    with np.errstate(invalid="ignore"):
+        far = theta >= 270 - MARGIN_DEG
+        if not np.any(far) or np.any((np.abs(theta) > 90 + MARGIN_DEG) & ~far | (theta > 360)):
+            return theta
+    angles.note(
+        "columns-read", f"{role} goes round a circle: {np.nanmax(theta):g} is {np.nanmax(theta) - 360:g} degrees"
+    )
+    return np.where(far, theta - 360.0, theta)
 
 
 def _azimuth_of_phase(angles: Angles, theta_i, theta_r) -> np.ndarray:

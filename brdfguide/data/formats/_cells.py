@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 
+from ..columns.vocabulary import word_set
 from .format import Source, holds_number
 
 MISSING = {
@@ -37,14 +38,13 @@ MISSING = {
     "nan(ind)",
     "-nan(ind)",
 }
-MINUS = re.compile(r"[\u2212\u2010-\u2015\ufe63\uff0d](?=[\d.,])")  # signs that word processors make of a hyphen
-DEGREES = re.compile(r"(?<=\d) ?[°º]")  # behind the numbers of a row
+# words that instruments and people write for missing; in the names above the rows they mean other things
+MARKS = word_set(
+    "over overrange over-range ovr ovf ovl ovld ol overflow overload sat sat. saturated saturation under underrange "
+    "underflow bad fail failed error err invalid nodata no_data masked x xx xxx blank empty void oor n.m. n/m lod <lod "
+    "<loq <dl bdl lost"
+) | {"over range", "no data", "out of range", "not measured", "below lod", "off scale"}
 THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}")  # or a decimal comma before three digits
-
-
-def plain_row(text: str) -> str:
-    """A line that begins as a row does, with hyphens for the minus signs of word processors, and no degree signs."""
-    return DEGREES.sub("", MINUS.sub("-", text))
 
 
 def cells_of(text: str, delimiter: str | None) -> list[str]:
@@ -83,20 +83,43 @@ def is_number(cell: str) -> bool:
     return holds_number(cell) or (cell.lower() in MISSING and cell != "")
 
 
+def is_missing(cell: str) -> bool:
+    """Whether a cell below the names stands for none."""
+    return cell.lower() in MISSING or is_mark(cell)
+
+
+def is_mark(cell: str) -> bool:
+    """Whether it is a word for missing, or the hashes of a spreadsheet's narrow column."""
+    return cell.lower() in MARKS or len(cell) > 1 and not cell.strip("#")
+
+
 def dotted(cell: str, decimal: str) -> str:
     return cell.replace(",", ".", 1) if decimal == "," and cell.count(",") == 1 and "." not in cell else cell
 
 
-def check_thousands(source: Source, rows, lines: list[int]) -> None:
-    """Raises InputError where every comma may as well part thousands."""
+def parts_thousands(source: Source, rows, lines: list[int], pointed: bool) -> bool:
+    """Whether commas of a table that seems to have decimal ones part thousands; `pointed`: whether it has points.
+
+    Raises InputError where every comma may as well do so, and where a column has decimal commas beside points that may.
+    """
     found = [(cell, line) for cells, line in zip(rows, lines, strict=True) for cell in cells if "," in cell]
     if found and all(THOUSANDS.fullmatch(cell) for cell, _ in found):
+        decimals = [cell for cells in rows for cell in cells if "." in cell and holds_number(cell)]
+        if any(not THOUSANDS.fullmatch(cell.replace(".", ",")) for cell in decimals):
+            return True
         cell, line = found[0]
         raise source.error(
             f"found '{cell}': a decimal comma, or one that parts thousands? Every number with one has three digits "
             f"behind it; write decimal points, and no commas in thousands",
             line,
         )
+    for column in zip(*rows, strict=True) if found and pointed else ():
+        comma = next((cell for cell in column if "," in cell and "." not in cell), None)
+        places = [place for place, cell in enumerate(column) if "." in cell]
+        if comma and places and all(THOUSANDS.fullmatch(column[place].replace(".", ",")) for place in places):
+            cell, line = column[places[0]], lines[places[0]]
+            raise source.error(f"found '{cell}' in a column with '{comma}': wanted one decimal mark", line)
+    return False
 
 
 def column_of(cells: list[str]) -> tuple[list[float], bool]:

@@ -27,6 +27,7 @@ def measurement_of(
     Raises InputError.
     """
     notes = [Finding("lines-skipped", f"skipped {text}") for text in table.notes[:SKIPPED]]
+    notes += table.findings
     table, chosen = _groups.selected(source, table, options.select)
     notes += chosen
     columns = _roles.mapped(table, options, source)

@@ -5,9 +5,10 @@ from dataclasses import field, replace
 
 import numpy as np
 
+from ...finding import Finding
 from ...records import dataclass
-from ..columns.facts import facts
-from ._cells import MISSING, cells_of, check_thousands, column_of, dotted, is_number, plain_row
+from ._cells import MISSING, cells_of, column_of, dotted, is_mark, is_number, parts_thousands
+from ._written import Style, is_tidy, reads, tidy, unit_of
 from .format import Source
 
 COMMENTS = ("#", "%", "//", "!")
@@ -40,6 +41,8 @@ class Sheet:
     comment_lines: list[int] = field(default_factory=list)  # number of the line that each comment stands in
     texts: dict[int, list[str]] = field(default_factory=dict)  # of a column with a cell that is no number: its cells
     sections: tuple[str, ...] = ()  # names of the columns that lines between the rows state
+    style: Style = Style("\t")
+    findings: tuple[Finding, ...] = ()  # what was made of cells that state more than a number
 
     def rows(self, kept) -> "Sheet":
         """The same for some of the rows: a mask or row numbers."""
@@ -48,11 +51,10 @@ class Sheet:
         return replace(self, values=self.values[kept], lines=self.lines[kept], texts=texts)
 
     def bad_cell(self, column: int) -> tuple[str, int] | None:
-        """The first cell of a column that is no number, and its line."""
-        for cell, line in zip(self.texts.get(column, ()), self.lines, strict=False):
-            if not is_number(cell) and cell.lower() not in MISSING:
-                return cell, int(line)
-        return None
+        """The first cell of a column that is no number, and its line; one that holds none at all before others."""
+        pairs = zip(self.texts.get(column, ()), self.lines, strict=False)
+        bad = [(cell, int(line)) for cell, line in pairs if not is_number(cell) and cell.lower() not in MISSING]
+        return next((each for each in bad if not reads(each[0], self.style)), bad[0] if bad else None)
 
 
 def read_sheet(
@@ -67,7 +69,7 @@ def read_sheet(
     for number, text in enumerate(source.lines, 1):
         stripped = text.strip()
         if not stripped.isascii() and not stripped[:1].isalpha() and not stripped.startswith(COMMENTS):
-            text = plain_row(text)
+            text = tidy(text)
             stripped = text.strip()
         if stripped[:1] in DIGITS:
             content.append((number, text))
@@ -92,8 +94,9 @@ def read_sheet(
     delimiter, decimal = _style(
         [text for _, text in content[first : first + LOOKED_AT]], content[first - 1][1] if first else None
     )
-    names, notes, above = _header(source, content[:first], comments, headerless, delimiter, content[first])
-    values, lines, texts = rows_of(source, content[first:], names, delimiter, decimal, notes)
+    first_row = content[first][0], tidy(content[first][1])
+    names, notes, above = _header(source, content[:first], comments, headerless, delimiter, first_row)
+    values, lines, texts, style = rows_of(source, content[first:], names, Style(delimiter, decimal), notes)
     return Sheet(
         names=names,
         values=values,
@@ -102,6 +105,7 @@ def read_sheet(
         notes=notes,
         comment_lines=comment_lines + [number for number, _ in above],
         texts=texts,
+        style=style,
     )
 
 
@@ -129,14 +133,25 @@ def _without_frame(content):
 def _first_row(content) -> int | None:
     """Where the rows begin: at the first line that is mostly numbers, or under a line of as many words.
 
-    The line that is mostly numbers may be the names' own, such as theta_i, theta_r, 400, 550, 700.
+    The line that is mostly numbers may be the names' own, such as theta_i, theta_r, 400, 550, 700. Cells such as
+    `30 deg` make a row only under words.
     """
+    plain = _row_of_numbers(content, is_number, False)
+    stated = _row_of_numbers(content[:plain], lambda cell: is_number(cell) or reads(cell), True)
+    return plain if stated is None else stated
+
+
+def _row_of_numbers(content, is_one: Callable[[str], bool], under_words: bool) -> int | None:
     before: list[str] = []
     for place, (_, text) in enumerate(content):
         cells = _roughly(text)
-        numbers = sum(is_number(cell) for cell in cells)
-        named = len(before) == len(cells) > 2 and not any(is_number(cell) for cell in before)
-        if 2 * numbers > len(cells) or numbers > 1 and named:
+        numbers = sum(is_one(cell) for cell in cells)
+        of_words = len(before) == len(cells) and not any(is_one(cell) for cell in before)
+        if under_words:
+            found = 2 * numbers > len(cells) > 1 and of_words and is_one(cells[0])
+        else:
+            found = 2 * numbers > len(cells) or numbers > 1 and of_words and len(cells) > 2
+        if found:
             return _below_the_names(content, place)
         before = cells
     return None
@@ -147,19 +162,27 @@ def _below_the_names(content, first: int) -> int:
     if first + 1 >= len(content):
         return first
     names, below = (_roughly(text) for _, text in content[first : first + 2])
-    words = [place for place, cell in enumerate(names) if cell[:1].isalpha() and len(cell) > 1 and not is_number(cell)]
+    words = [place for place, cell in enumerate(names) if _is_name(cell)]
     return first + 1 if len(names) == len(below) and any(is_number(below[place]) for place in words) else first
+
+
+def _is_name(cell: str) -> bool:
+    return cell[:1].isalpha() and len(cell) > 1 and not is_number(cell) and not is_mark(cell)
 
 
 def _roughly(text: str) -> list[str]:
     """The cells of a line whose style is not known yet, parted by the strongest mark in it, with decimal points."""
-    text = text.strip().replace('"', "")
+    text = tidy(text.strip().replace('"', ""))
     mark = next((mark for mark in "\t;|" if mark in text), None)
     cells = [dotted(cell.strip(), ",") for cell in text.split(mark)]
     if mark or "," not in text:
         return cells
     by_comma = [cell.strip() for cell in text.split(",")]
-    return max((by_comma, cells), key=lambda each: sum(is_number(cell) for cell in each) / max(len(each), 1))
+
+    def share(cells: list[str]) -> float:
+        return sum(is_number(cell) or reads(cell) for cell in cells) / len(cells)
+
+    return max((by_comma, cells), key=share)
 
 
 def _style(sample: list[str], header: str | None):
@@ -167,14 +190,19 @@ def _style(sample: list[str], header: str | None):
     better than blanks; else the first in which they have equally many, all numbers.
     """
 
+    rows_as_written = list(map(tidy, sample))
+
+    def is_one(cell: str, style: Style) -> bool:
+        return cell == "" or is_number(dotted(cell, style.decimal)) or reads(cell, style)
+
     def score(style):
         delimiter, decimal = style
-        rows = [cells_of(text, delimiter) for text in sample]
+        rows = [cells_of(text, delimiter) for text in rows_as_written]
         counts = [len(row) for row in rows]
         common = max(set(counts), key=counts.count)
         if common < 2:
             return (False, False, 0.0, False)
-        good = sum(is_number(dotted(cell, decimal)) or cell == "" for row in rows for cell in row) / sum(counts)
+        good = sum(is_one(cell, Style(delimiter, decimal)) for row in rows for cell in row) / sum(counts)
         whole = sum(count == common for count in counts) / len(counts)
         agrees = header is not None and len(cells_of(header, delimiter)) == common
         whole_sheet = agrees and whole == 1 and good > 0.25  # the rest is text
@@ -242,12 +270,7 @@ def _commented(comments, delimiter: str | None, width: int) -> list[str]:
 
 def _is_unit(cell: str) -> bool:
     """Whether a cell holds a unit and nothing else, or nothing."""
-    bare = cell.strip().strip('[](){}"')
-    if bare in ("", "-", "1"):
-        return True
-    column, left = facts(f"unit [{bare}]", colours=False)
-    says = column.unit or column.per_sr or column.scale
-    return bool(says) and [token.text for token in left] == ["unit"] and column.quantity is None
+    return cell.strip().strip('[](){}"') in ("", "-", "1") or unit_of(cell) is not None
 
 
 def _is_row_of_units(text: str) -> bool:
@@ -295,26 +318,29 @@ def _trimmed(cells: list[str]) -> list[str]:
 # --- rows -------------------------------------------------------------------------------------------------
 
 
-def rows_of(source: Source, content, names, delimiter, decimal, notes):
-    """Values (rows, columns), the line of each row, and the cells of columns in which some are no numbers.
+def rows_of(source: Source, content, names, style: Style, notes):
+    """Values (rows, columns), the line of each row, the cells of columns in which some are no numbers, and the style.
 
     `content` are pairs of line number and text. Raises InputError for a row of another length.
     """
     width = len(names)
     lines = np.array([number for number, _ in content])
     texts = [text for _, text in content]
-    plain = decimal == "." and not any('"' in text for text in texts[:LOOKED_AT])
+    plain = style.decimal == "." and not any('"' in text for text in texts[:LOOKED_AT])
     if plain:
         try:
-            values = np.loadtxt(texts, delimiter=delimiter, comments=None, ndmin=2)
+            values = np.loadtxt(texts, delimiter=style.delimiter, comments=None, ndmin=2)
             if values.shape[1] == width:
-                return values, lines, {}
+                return values, lines, {}, style
         except ValueError:
             pass  # the slow way finds out where and why
+    together = "\n".join(texts)
+    if not is_tidy(together):
+        content = [(number, tidy(text)) for number, text in content]
     rows: list[list[str]] = []
     kept: list[int] = []
     for place, (number, text) in enumerate(content):
-        cells = cells_of(text, delimiter)
+        cells = cells_of(text, style.delimiter)
         if cells[:width] == names:
             notes.append(f"line {number}: the header again")
             continue
@@ -327,13 +353,13 @@ def rows_of(source: Source, content, names, delimiter, decimal, notes):
             raise source.error(f"found {len(cells)} cells, wanted {width} ({', '.join(names)[:80]})", number)
         rows.append(cells)
         kept.append(number)
-    if decimal == ",":
-        check_thousands(source, rows, kept)
-        rows = [[dotted(cell, decimal) for cell in cells] for cells in rows]
+    if style.decimal == ",":
+        style = Style(style.delimiter, ".", True) if parts_thousands(source, rows, kept, "." in together) else style
+        rows = [[dotted(cell, style.decimal) for cell in cells] for cells in rows]
     values, strange = np.full((len(rows), width), np.nan), {}
     for place in range(width):
         column = [row[place] for row in rows]
         values[:, place], bad = column_of(column)
         if bad:
             strange[place] = column
-    return values, np.array(kept, int), strange
+    return values, np.array(kept, int), strange, style

@@ -14,6 +14,7 @@ from ..columns.inverse_units import INVERSE_UNITS
 from ..columns.vocabulary import LENGTH_UNITS
 from ..measurement import Measurement
 from ._groups import as_channels
+from ._marks import without_written_marks
 from ._pivot import pivoted
 from ._roles import Assigned, missing
 from ._sheet import Sheet
@@ -30,10 +31,7 @@ DECODED = {
     "ln": lambda x: _power(x),
 }
 SAME_SIZE = {"hdrf": "reflectance-factor", "radiance-factor": "reflectance-factor"}
-# what instruments and programs write for too bright or missing: all bits of 10 to 16, or nines
 MANY_READINGS, ONE_LINE = 4, 1.002  # wavelengths that differ by less than a laser's or a filter's reading does
-BITS = {1023.0, 4095.0, 16383.0, 32767.0, 65535.0}
-FULL_SCALES = BITS | {10.0**n - 1 for n in range(3, 10)} | {99.99, 999.9, 999.99, 9999.99}
 RELATIVE = {"dB": LN10 / 10, "log10": LN10, "ln": 1.0}  # a doubt in such units as a share of the value
 
 
@@ -176,7 +174,7 @@ def _decoded(source, table: Sheet, columns: list[Column], notes) -> np.ndarray:
     highest = float(np.max(table.values[:, plain], where=np.isfinite(table.values[:, plain]), initial=0.0))
     said = set()
     for place, column in enumerate(columns):
-        given = _without_nines(source, table.values[:, column.place], notes)
+        given = without_written_marks(table.values[:, column.place], column.scale, notes)
         found[:, place] = DECODED[column.scale](given) * column.factor
         if not column.scale and column.factor == 1:
             _not_logarithms(source, column, given, highest)
@@ -187,21 +185,6 @@ def _decoded(source, table: Sheet, columns: list[Column], notes) -> np.ndarray:
         text = f"'{vague[0]}' does not say what it holds: taken as the BRDF [1/sr]"
         notes.append(Finding("quantity-assumed", text, consequence="examined further on", option="--quantity"))
     return found
-
-
-def _without_nines(source, given, notes) -> np.ndarray:
-    """The values without a full scale or a row of nines that stands several times far above all others."""
-    known = given[np.isfinite(given)]
-    largest = float(known.max(initial=0.0))
-    rest = known[known < largest]
-    marks = given == largest
-    count = int(np.count_nonzero(marks))
-    if largest not in FULL_SCALES or count < 2 or not len(rest) or largest < 10 * rest.max():
-        return given
-    text = f"{count} of {len(given)} values are {largest:g}, far above all others: taken as marks for missing"
-    numbers = (("values", count), ("of", len(given)), ("first_per_sr", largest))
-    notes.append(Finding("marks-missing", text, consequence="they take no part in a fit", numbers=numbers))
-    return np.where(marks, np.nan, given)
 
 
 def _how(column: Column) -> Finding:

@@ -18,6 +18,7 @@ from . import _meaning
 from ._cells import cells_of
 from ._sheet import COMMENTS, Sheet, rows_of
 from ._writing import about, value, wavelengths
+from ._written import Style
 from .format import Format, Options, Source
 
 
@@ -51,7 +52,7 @@ def read(source: Source, options: Options) -> Measurement:
         raise source.error("no rows after VARS")
     delimiter = next((mark for mark in (",", ";", "\t") if mark in content[0][1]), None)
     names, notes = _with_phi_s(names, len(cells_of(content[0][1], delimiter)))
-    values, lines, texts = rows_of(source, content, names, delimiter, ".", [])
+    values, lines, texts, _ = rows_of(source, content, names, Style(delimiter), [])
     promised = header.get("NUM_POINTS", "")
     if promised.isdecimal() and int(promised) > len(values):
         raise source.error(f"truncated: NUM_POINTS promises {promised} rows; found {len(values)}")

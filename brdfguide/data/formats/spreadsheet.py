@@ -10,8 +10,7 @@ from ...errors import InputError
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._cells import is_number
-from ._sections import opens_a_section, with_sections
-from ._sheet import read_sheet
+from ._stated import sheet_of
 from ._tables import as_text, library
 from .format import OF_TABLES, TEXT_LIMIT, Format, Options, Source
 
@@ -27,19 +26,14 @@ def recognises(head: bytes) -> bool:
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError for a damaged workbook, for several sheets of which none is chosen, and as tables do."""
     text, rest = _sheet(source, options.select)
-    return _meaning.measurement_of(text, _read(text, options), replace(options, select=rest), kind="Excel workbook")
+    return _meaning.measurement_of(text, sheet_of(text, options), replace(options, select=rest), kind="Excel workbook")
 
 
 def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
     """The values of a column, in the order in which they come. Raises InputError where they are no groups."""
     text, rest = _sheet(source, options.select)
-    table, _ = _groups.selected(text, _read(text, options), rest)
+    table, _ = _groups.selected(text, sheet_of(text, options), rest)
     return _groups.values_of_group(text, table, column)
-
-
-def _read(text: Source, options: Options):
-    headerless = options.columns if isinstance(options.columns, tuple) else None
-    return with_sections(read_sheet(text, headerless, opens_a_section))
 
 
 def _sheet(source: Source, select) -> tuple[Source, tuple]:

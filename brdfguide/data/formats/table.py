@@ -12,8 +12,7 @@ import numpy as np
 from ...printable import comment
 from ..measurement import Measurement
 from . import _groups, _meaning
-from ._sections import opens_a_section, with_sections
-from ._sheet import read_sheet
+from ._stated import sheet_of
 from .format import OF_TABLES, Format, Options, Source
 
 
@@ -24,18 +23,13 @@ def recognises(head: bytes) -> bool:
 
 def read(source: Source, options: Options) -> Measurement:
     """Raises InputError naming line and column, what was found and what was wanted."""
-    return _meaning.measurement_of(source, _sheet_of(source, options), options)
+    return _meaning.measurement_of(source, sheet_of(source, options), options)
 
 
 def groups(source: Source, options: Options, column: str) -> tuple[str, ...]:
     """The values of a column, in the order in which they come. Raises InputError where they are no groups."""
-    table, _ = _groups.selected(source, _sheet_of(source, options), options.select)
+    table, _ = _groups.selected(source, sheet_of(source, options), options.select)
     return _groups.values_of_group(source, table, column)
-
-
-def _sheet_of(source: Source, options: Options):
-    headerless = options.columns if isinstance(options.columns, tuple) else None
-    return with_sections(read_sheet(source, headerless, opens_a_section))
 
 
 def written(measurement: Measurement):

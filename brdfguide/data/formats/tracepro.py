@@ -19,6 +19,7 @@ from ._pivot import pivoted
 from ._rotations import ISOTROPIC
 from ._sheet import Sheet, rows_of
 from ._writing import about, angle, value, wavelengths
+from ._written import Style
 from .format import Format, Options, Source, averaged, check_angle, check_zenith, measurement
 
 TABLE = "table_bsdf_data"
@@ -72,7 +73,7 @@ def _columns(source: Source) -> dict[str, np.ndarray]:
     if missing:
         raise source.error(f"no column {missing[0]} under Table_BSDF_Data; found {', '.join(names)[:80]}", number)
     rows = [(number, " ".join(text.split())) for number, text in content[1:]]
-    values, where, texts = rows_of(source, rows, names, None, ".", [])
+    values, where, texts, _ = rows_of(source, rows, names, Style(None), [])
     sheet = Sheet(names, values, where, [], [], texts=texts)
     for place, name in enumerate(names):
         if bad := sheet.bad_cell(place):
