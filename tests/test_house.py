@@ -44,6 +44,9 @@ LATE = {
     "data.formats.spreadsheet": {"zipfile"},  # every command that reads would load it for workbooks alone
     "data.formats.zarr": {"logging", "zipfile"},  # the same for zarr
     "data.formats.klems": {"xml.etree"},  # the same for XML
+    "data.formats.opendocument": {"zipfile", "xml.etree"},
+    "data.formats._zip": {"zipfile"},
+    "data.formats.html": {"html"},  # 2,231 names of signs, only for pages
     "data.formats._open": {"zlib", "lzma", "bz2"},  # Python may be built without them
     "errors": {"difflib", "pathlib", ".", ".printable"},  # only to word an error, and `roughness` starts without them
     "report.text.emergence": {"json", ".folding"},  # the same command answers in words, and in a pipe, without them

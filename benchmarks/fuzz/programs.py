@@ -1,9 +1,12 @@
 """Files of optical engineers' and planners' programs, made from nothing: valid ones, and then damaged."""
 
 import io
+import json
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
+from xml.sax.saxutils import escape
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 from damage import NUMBERS, damaged
@@ -204,4 +207,42 @@ def zarr(draw: Random) -> dict[str, bytes]:
     return files | {bent: _bent(draw, files[bent])}
 
 
+def _as_words(draw: Random) -> list[list[str]]:
+    return [["" if cell is None else f"{cell}" for cell in row] for row in _cells(draw)]
+
+
+def html(draw: Random) -> bytes:
+    rows = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>\n" for row in _as_words(draw))
+    head = draw.choice(("", "<html><body>", "<!-- <table> -->", "<table><td rowspan=3 colspan=2>x"))
+    return _bent(draw, f"<div>{head}<table>{rows}</table>".encode())
+
+
+def latex(draw: Random) -> bytes:
+    rows = "".join(" & ".join(row) + draw.choice((" \\\\\n", " \\\\ \\hline\n")) for row in _as_words(draw))
+    return _bent(draw, f"\\begin{{tabular}}{{rrrr}}\n{rows}\\end{{tabular}}\n".encode())
+
+
+def json_table(draw: Random) -> bytes:
+    head, *rows = _cells(draw)
+    rows = [[cell if type(cell) in (float, str, bool) else str(cell) for cell in row] for row in rows]
+    named = [dict(zip(map(str, head), row, strict=True)) for row in rows]
+    every = (named, {"columns": [*map(str, head)], "data": rows}, {str(key): [row[0] for row in rows] for key in head})
+    return _bent(draw, json.dumps(draw.choice((named, named, *every))).encode())
+
+
+def opendocument(draw: Random) -> bytes:
+    def cell(value) -> str:
+        kind = f'office:value-type="float" office:value="{value}"' if type(value) is float else ""
+        return f"<table:table-cell {kind}><text:p>{escape(str(value))}</text:p></table:table-cell>"
+
+    rows = "".join(f"<table:table-row>{''.join(map(cell, row))}</table:table-row>" for row in _cells(draw))
+    text = f'<a xmlns:office="o" xmlns:table="t" xmlns:text="x"><table:table>{rows}</table:table></a>'
+    stream = io.BytesIO()
+    with ZipFile(stream, "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+        archive.writestr("content.xml", draw.choice((text.encode(), _bent(draw, text.encode()))), ZIP_DEFLATED)
+    return draw.choice((stream.getvalue(), _bent(draw, stream.getvalue())))
+
+
 MAKERS = {each.__name__: each for each in (speos, speos_brdf, tracepro, klems, utia, spreadsheet, parquet, hdf5, zarr)}
+MAKERS |= {each.__name__: each for each in (html, latex, json_table, opendocument)}

@@ -21,6 +21,7 @@ from ...records import dataclass
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
+from ._stated import with_stated
 from ._tables import damage_told, sheet_of_columns, with_unit
 from .format import OF_TABLES, Format, Options, Source
 
@@ -57,7 +58,7 @@ class ArrayTable:
         """Some of its rows. Raises InputError where they are damaged, or hold neither numbers nor words."""
         with damage_told(source, self.kind):
             columns = self.columns(rows)
-        return sheet_of_columns(source, self.names, columns, rows.start + 1, self.comments)
+        return with_stated(source, sheet_of_columns(source, self.names, columns, rows.start + 1, self.comments))
 
     def pieces(self) -> Iterator[slice]:
         """Rows that are read together: whole chunks of the file where they are not too large."""

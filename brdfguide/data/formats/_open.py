@@ -7,7 +7,8 @@ from pathlib import Path
 from ... import opening
 from ...errors import InputError
 from ...finding import Finding
-from .format import Format, Source
+from . import _zip
+from .format import Format, Source, wide_encoding
 
 MAGIC = {b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"BZh": "bzip2"}
 PIECE = 2**20  # bytes of content read at once
@@ -22,14 +23,14 @@ def stream(path, name: str):
     if str(path) == "-" and not isinstance(path, opening.Held):
         yield _Unpacked(sys.stdin.buffer, name)
         return
-    with opening.open_for_reading(path, name) as raw:
-        yield _Unpacked(raw, name)
+    with opening.open_for_reading(path, name) as raw, _zip.one_file(raw, name) as (content, packed):
+        yield _Unpacked(content, name, packed)
 
 
 def plain_head(head: bytes) -> bytes:
     """The first bytes as UTF-8 without a byte order mark, for readers that look for words."""
-    if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return head[: len(head) // 2 * 2].decode("utf-16", "replace").encode("utf-8", "replace")
+    if wide := wide_encoding(head):
+        return head[: len(head) // 2 * 2].decode(wide, "replace").encode("utf-8", "replace")
     return head.removeprefix(b"\xef\xbb\xbf")
 
 
@@ -43,7 +44,7 @@ def whole_content(stream, head: bytes, limit: int, name: str, swells: bool = Fal
         content += piece
         if len(content) > limit:
             raise _beyond(name, limit)
-        if stream.kind and not swells and len(content) > PIECE + HONEST_SWELLING * stream.consumed:
+        if stream.consumed and not swells and len(content) > PIECE + HONEST_SWELLING * stream.consumed:
             raise InputError(
                 f"{name}: unpacks to more than {HONEST_SWELLING} times its size, which no measurement does"
             )
@@ -60,7 +61,7 @@ def source_of(path, stream, head: bytes, format: Format, name: str) -> Source:
     Never mapped to memory: who cuts a mapped file short ends the process. Raises InputError as `whole_content`.
     """
     lies_there = not isinstance(path, opening.Held) and str(path) != "-" and opening.is_plain(path)
-    if lies_there and stream.kind is None and format.in_place:
+    if lies_there and not stream.consumed and format.in_place:
         return Source(name, b"", place=Path(path))
     data = whole_content(stream, head, format.limit, name, swells=format.whole_table)
     return Source(name, data, left_behind(stream))
@@ -77,17 +78,17 @@ def left_behind(stream) -> tuple[Finding, ...]:
 class _Unpacked:
     """read(size) over a raw stream, decompressing gzip, xz and bzip2 piece by piece, one member after the other.
 
-    `behind` says how many bytes follow the last member that are none.
+    `packed` are the bytes that the stream takes in a ZIP; `behind` says how many follow the last member that are none.
     """
 
-    def __init__(self, raw, name: str):
+    def __init__(self, raw, name: str, packed: int = 0):
         self.raw, self.name = raw, name
         self.packed = raw.read(6)  # read, and not yet unpacked
         self.kind = next((kind for magic, kind in MAGIC.items() if self.packed.startswith(magic)), None)
         self.magic = next((magic for magic in MAGIC if self.packed.startswith(magic)), b"")
         self.machine = _machine(self.kind)
         self.done = False
-        self.consumed = len(self.packed)
+        self.consumed = packed or len(self.packed) * bool(self.kind)  # bytes of what is packed; 0 where nothing is
         self.behind = 0
 
     def read(self, size: int) -> bytes:

@@ -12,7 +12,7 @@ from ._cells import is_missing
 from ._sections import opens_a_section, with_sections
 from ._sheet import Sheet, read_sheet
 from ._tables import with_unit
-from ._written import BOTH, Style, Written, number_in, unit_of
+from ._written import BOTH, Style, Written, number_in, tidy, unit_of
 from .format import Options, Source
 
 
@@ -59,7 +59,8 @@ def _all_written(cells: list[str], style: Style) -> list[Written] | None:
     """What every cell says, NaN where it is missing; None where one holds something else, or all are missing."""
     found = []
     for cell in cells:
-        each = Written(float("nan")) if is_missing(cell) else number_in(cell, style)
+        missing = Written(float("nan")) if is_missing(cell) else None
+        each = missing or number_in(cell, style) or number_in(tidy(cell), style)
         if each is None:
             return None
         found.append(each)

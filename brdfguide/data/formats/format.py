@@ -17,6 +17,11 @@ from ..columns.languages import encoding_of
 from ..measurement import Measurement
 
 MARK = b"\xef\xbb\xbf"  # of UTF-8; in front of what is none it is no text either
+WIDE = (
+    (rb"\xff\xfe(?!\0\0)|\xfe\xff", "utf-16"),
+    (rb"(?:[\t\n\r -~]\0){6}", "utf-16-le"),
+    (rb"(?:\0[\t\n\r -~]){6}", "utf-16-be"),
+)
 END_OF_FILE = "\x1a"  # as DOS ended texts
 OF_TABLES = ("columns", "unit", "select", "rotation_sense")  # options of reading that a table under names takes
 TEXT_LIMIT = 160 * 2**20  # bytes of text: a whole MERL table as CSV; a gonioreflectometer fills a hundredth of it
@@ -55,20 +60,20 @@ class Source:
 
     @cached_property
     def text(self) -> str:
-        """The file as text: UTF-8 or UTF-16 with a byte order mark, else the encoding in which heads in other languages
+        """The file as text: UTF-8 or UTF-16, else the encoding in which heads in other languages
         are words, else Latin-1; exponents with E.
 
         Raises InputError for binary.
         """
         encodings: list[str | None] = ["utf-8-sig", None, "latin-1"]
-        if self.data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-            encodings = ["utf-16"]
+        if wide := wide_encoding(self.data):
+            encodings = [wide]
         elif b"\0" in self.data:
             raise self.error(
                 "it is binary, and no reader knows it; wanted text with a header row, or a known table format"
             )
         for encoding in encodings:
-            plain = self.data.removeprefix(b"" if encoding in ("utf-8-sig", "utf-16") else MARK)
+            plain = self.data.removeprefix(b"" if encoding in ("utf-8-sig", wide) else MARK)
             try:
                 return with_e(plain.decode(encoding or encoding_of(plain)).rstrip(END_OF_FILE))
             except UnicodeDecodeError:
@@ -95,6 +100,11 @@ class Source:
             except ValueError:
                 raise self.error(f"value {place}: found '{cell[:40]}', wanted a number", line) from None
         return values
+
+
+def wide_encoding(head) -> str | None:
+    """The encoding of text in letters of two bytes, by its mark or since it begins with plain letters."""
+    return next((name for pattern, name in WIDE if re.match(pattern, head)), None)
 
 
 def with_e(text: str) -> str:

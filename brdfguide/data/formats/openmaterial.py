@@ -15,6 +15,7 @@ import numpy as np
 from ...finding import Finding
 from ...printable import short
 from ..measurement import Measurement
+from ._json import is_table
 from ._pivot import pivoted
 from ._sides import azimuths_on_their_side
 from ._unread import AS_CSV
@@ -26,8 +27,8 @@ COLUMNS = ("wavelength", "theta_i", "theta_r", "phi", "brdf")
 
 
 def recognises(head: bytes) -> bool:
-    """Any JSON object: its description may be longer than what is looked at, and no other reader takes JSON."""
-    return re.match(rb'\s*\{\s*"', head) is not None
+    """Any JSON object that is no table: its description may be longer than what is looked at."""
+    return re.match(rb'\s*\{\s*"', head) is not None and not is_table(head)
 
 
 def read(source: Source, options: Options) -> Measurement:

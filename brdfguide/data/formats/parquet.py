@@ -6,6 +6,7 @@ from ...errors import NothingLeft
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._sheet import Sheet
+from ._stated import with_stated
 from ._tables import damage_told, library, sheet_of_columns, with_unit
 from .format import OF_TABLES, Format, Options, Source
 
@@ -50,7 +51,7 @@ def parts(source: Source, options: Options) -> Iterator[Measurement]:
             columns = [] if batch is None else [_cells(column) for column in batch.columns]
         if batch is None:
             return
-        sheet = sheet_of_columns(source, _names(source, batch.schema), columns, first)
+        sheet = with_stated(source, sheet_of_columns(source, _names(source, batch.schema), columns, first))
         first += batch.num_rows
         try:
             yield _meaning.measurement_of(source, sheet, options, kind=KIND)
@@ -78,7 +79,7 @@ def _sheet(source: Source) -> Sheet:
         raise source.error(f"a damaged Parquet file: not every column holds the {rows} rows that it promises")
     with damage_told(source, FILE):
         cells = [_cells(column) for column in table.columns]
-    return sheet_of_columns(source, _names(source, table.schema), cells, 1)
+    return with_stated(source, sheet_of_columns(source, _names(source, table.schema), cells, 1))
 
 
 def _names(source: Source, schema) -> list[str]:

@@ -13,12 +13,12 @@ from ...printable import comment
 from ..measurement import Measurement
 from . import _groups, _meaning
 from ._stated import sheet_of
-from .format import OF_TABLES, Format, Options, Source
+from .format import OF_TABLES, Format, Options, Source, wide_encoding
 
 
 def recognises(head: bytes) -> bool:
     """Any text: this reader takes what no other claims."""
-    return b"\0" not in head or head[:2] in (b"\xff\xfe", b"\xfe\xff")
+    return b"\0" not in head or wide_encoding(head) is not None
 
 
 def read(source: Source, options: Options) -> Measurement:
