@@ -2,12 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import field, replace
+from itertools import pairwise
 
 import numpy as np
 
 from ...finding import Finding
 from ...records import dataclass
+from ..columns.vocabulary import word_set
 from ._cells import MISSING, cells_of, column_of, dotted, is_mark, is_number, parts_thousands
+from ._layouts import as_rows
 from ._written import Style, is_tidy, reads, tidy, unit_of
 from .format import Source
 
@@ -28,6 +31,7 @@ STYLES = (
 RULE = "|+-=: \t"  # of what the lines between the names and rows of Markdown and framed tables consist
 DIGITS = frozenset("0123456789")
 A_NUMBER = DIGITS | set("-+.")  # what one begins with
+SUMMARIES = word_set("mean average avg std stdev sd min max minimum maximum median sum total count rms")  # of columns
 LOOKED_AT = 40  # data lines that decide the style
 
 
@@ -78,7 +82,7 @@ def read_sheet(
             comment_lines.append(number)
         elif stripped.strip(",;\t |") and stripped.strip(RULE):
             content.append((number, text))
-    content = _without_frame(content)
+    content = as_rows(_without_frame(content))
     if not content:
         raise source.error(
             "there is no table in it, only comments and blank lines" if comments else "the file is empty"
@@ -95,7 +99,8 @@ def read_sheet(
         [text for _, text in content[first : first + LOOKED_AT]], content[first - 1][1] if first else None
     )
     first_row = content[first][0], tidy(content[first][1])
-    names, notes, above = _header(source, content[:first], comments, headerless, delimiter, first_row)
+    below = content[first + 1 : first + LOOKED_AT]
+    names, notes, above = _header(source, content[:first], comments, headerless, delimiter, first_row, below)
     values, lines, texts, style = rows_of(source, content[first:], names, Style(delimiter, decimal), notes)
     return Sheet(
         names=names,
@@ -150,7 +155,7 @@ def _row_of_numbers(content, is_one: Callable[[str], bool], under_words: bool) -
         if under_words:
             found = 2 * numbers > len(cells) > 1 and of_words and is_one(cells[0])
         else:
-            found = 2 * numbers > len(cells) or numbers > 1 and of_words and len(cells) > 2
+            found = len(cells) > 1 and (2 * numbers > len(cells) or numbers > 1 and of_words and len(cells) > 2)
         if found:
             return _below_the_names(content, place)
         before = cells
@@ -214,7 +219,7 @@ def _style(sample: list[str], header: str | None):
 # --- names ------------------------------------------------------------------------------------------------
 
 
-def _header(source, before, comments, headerless, delimiter, first):
+def _header(source, before, comments, headerless, delimiter, first, below):
     """Column names, what was skipped, and the lines of text above them.
 
     The names are those of the option, of the line above the numbers, or of the last comment that has as many words.
@@ -232,7 +237,11 @@ def _header(source, before, comments, headerless, delimiter, first):
         skipped.pop()
     else:
         units = []
+    if len(skipped) > 1 and _names_stand_above(skipped, delimiter, range(width, most + 1)):
+        skipped[-2:] = [skipped[-1], skipped[-2]]  # `theta_i = 10` below the names of the first block
     names = _names_in(skipped[-1][1], delimiter, width) if skipped else _commented(comments, delimiter, width)
+    if len(names) == width - 1 > 1 and _counts_rows(text, below, delimiter):
+        names = ["", *names]  # as R writes them
     if not names:
         text = f"no header row above the numbers ({width} columns); name the columns with --columns, such as "
         raise source.error(text + "theta_i,theta_r,brdf", number)
@@ -249,6 +258,22 @@ def _header(source, before, comments, headerless, delimiter, first):
             f"{name} [{unit}]" if unit not in ("", "-") else name for name, unit in zip(names, units, strict=False)
         ]
     return names, [f"line {line}: '{text.strip()[:40]}'" for line, text in skipped[:-1]], skipped[:-1]
+
+
+def _names_stand_above(before, delimiter: str | None, width: range) -> bool:
+    """Whether the last line above the rows states something, and the one above it has as many names as there are
+    columns."""
+    stated = before[-1][1]
+    told = len(_trimmed(cells_of(stated, delimiter))) not in width and ("=" in stated or ":" in stated)
+    return told and len(_names_in(before[-2][1], delimiter, width[0])) in width
+
+
+def _counts_rows(first: str, below, delimiter: str | None) -> bool:
+    """Whether the first cells of rows are words, or count from 0 or 1."""
+    heads = [cells_of(text, delimiter)[0] for text in (first, *(text for _, text in below))]
+    counts = [int(head) for head in heads if head.isdecimal() and len(head) < 10]
+    steps = len(counts) == len(heads) and counts[0] < 2 and all(b - a == 1 for a, b in pairwise(counts))
+    return steps if counts else not any(map(is_number, heads))
 
 
 def _names_in(text: str, delimiter: str | None, width: int) -> list[str]:
@@ -281,9 +306,11 @@ def _is_row_of_units(text: str) -> bool:
     return mark is not None and all(_is_unit(cell) for cell in text.split(mark))
 
 
-def _is_words(content) -> bool:
-    """Whether lines hold no digit, such as `End of data` below the rows."""
-    return not any(DIGITS & set(text) for _, text in content)
+def _is_footer(content, row: list[str]) -> bool:
+    """Whether lines hold no digit, such as `End of data` below the rows, or all begin with words where rows do not."""
+    if not any(DIGITS & set(text) for _, text in content):
+        return True
+    return is_number(row[0]) and all(text.strip('" \t').lower()[:1].isalpha() for _, text in content)
 
 
 def _twice(names: list[str]) -> str:
@@ -346,7 +373,7 @@ def rows_of(source: Source, content, names, style: Style, notes):
             continue
         if len(cells) > width and not any(cells[width:]):
             cells = cells[:width]
-        if len(cells) != width and rows and _is_words(content[place:]):
+        if (len(cells) != width or cells[0].lower() in SUMMARIES) and rows and _is_footer(content[place:], rows[0]):
             notes += [f"line {line}: '{words.strip()[:40]}'" for line, words in content[place:]]
             break
         if len(cells) != width:

@@ -73,7 +73,7 @@ class Source:
                 "it is binary, and no reader knows it; wanted text with a header row, or a known table format"
             )
         for encoding in encodings:
-            plain = self.data.removeprefix(b"" if encoding in ("utf-8-sig", wide) else MARK)
+            plain = self.data.removeprefix(b"" if wide or encoding == "utf-8-sig" else MARK)
             try:
                 return with_e(plain.decode(encoding or encoding_of(plain)).rstrip(END_OF_FILE))
             except UnicodeDecodeError:

@@ -18,6 +18,7 @@ RULE = re.compile(
     r"endlastfoot|noalign|rowcolor|centering|small|footnotesize)\b\*?(?:\([lr]{0,2}\))?(?:\[[^\]]{0,20}\])?"
     r"(?:\{[^{}]{0,40}\}){0,3}"
 )
+ROW = re.compile(rb"&[^\n&]{1,200}\\\\[ \t]{0,9}(?:\\[a-z]{1,20}[ \t]{0,9}){0,3}\r?\n")
 SPANNING = re.compile(r"\\multicolumn\{(\d{1,3})\}\{[^{}]{0,40}\}\{")
 ROWS_SPANNED = re.compile(
     r"\\multirow(?:cell)?(?:\[[^\]]{0,10}\])?\{[^{}]{0,10}\}(?:\[[^\]]{0,10}\])?\{[^{}]{0,20}\}\{"
@@ -85,9 +86,11 @@ PLAIN = {
 
 def recognises(head: bytes) -> bool:
     """A table's beginning, or rows with `&` between the cells and two strokes behind them."""
+    if b"\0" in head:
+        return False
     if re.search(rb"\\begin\{(?:" + KINDS + rb")\*?\}", head):
         return True
-    return len(re.findall(rb"&[^\n&]{1,200}\\\\", head)) > 1 and not re.match(rb"\s*[<{]", head)
+    return len(ROW.findall(head)) > 1 and not re.match(rb"\s*[<{]", head)
 
 
 def _tables(source: Source) -> dict[str, _sheets.Rows]:
