@@ -19,6 +19,7 @@ UNDONE = {
     "reflectance-factor": "divided by pi",
     "dark-level": "taken out",
 }
+RESOLVED = 4  # values of a lobe that a floor cuts
 BELOW_NOISE = 10.0  # times the largest value: what lies so far below zero is no noise about it
 NO_BRDF = 1e20  # 1/sr; what files have in place of a value reaches from 1e20 to 1e37
 OBLIQUE_DEG, NO_LOBE_DEG = 25.0, 15.0  # from this incidence on, a peak so far before the mirror direction is no lobe
@@ -132,25 +133,56 @@ def _floor(brdf) -> float | None:
     """The lowest positive value, if it is repeated as no measured value is.
 
     A smooth surface whose lobe has died out repeats its diffuse value as well; but then the values just above
-    crowd toward it, while a floor cuts through them: those within 0.2 % are not denser than those within 10 %.
+    crowd toward it, while a floor cuts through them: those within 0.2 % are not denser than those within 10 %. Numbers
+    of two or three digits have no values so near; their next one and a half steps count in place of that.
     """
     with np.errstate(invalid="ignore"):
         positive = brdf[brdf > 0]
         if positive.size < 20:
             return None
-        low = positive.min()
+        low = float(positive.min())
         count = np.count_nonzero(positive == low)
-        if count < 4 or count > 0.5 * positive.size:
+        if count < 4 or count == positive.size:
             return None
         rest = positive[positive > low]
-        near = np.count_nonzero(rest <= 1.002 * low)
-        beyond = np.count_nonzero((rest > 1.002 * low) & (rest <= 1.1 * low))
-    if near >= 2 and near > 5 * beyond / 49:
+        digits = _digits(rest)
+        step = 10 ** (np.floor(np.log10(low)) + 1 - digits)
+        just = max(0.002, 1.5 * float(step) / low)
+        near = np.count_nonzero(rest <= (1 + just) * low)
+        beyond = np.count_nonzero((rest > (1 + just) * low) & (rest <= 1.1 * low))
+        if count > 0.5 * positive.size and not _cuts_lobes(brdf, low, digits):
+            return None
+    denser = 5 if digits > 3 else 3
+    if near >= 2 and near > denser * beyond * just / max(0.1 - just, just):
         return None
     commonest = np.unique(
         rest[rest <= np.partition(rest, min(200, rest.size - 1))[min(200, rest.size - 1)]], return_counts=True
     )[1].max()
-    return float(low) if count > 3 * commonest else None
+    return low if count > 3 * commonest else None
+
+
+def _digits(values) -> int:
+    """How many significant digits most values are written with, 2 to 5; 5 stands for more."""
+    scaled = values / 10 ** np.floor(np.log10(values))
+    for digits in (2, 3, 4):
+        steps = scaled * 10 ** (digits - 1)
+        if np.mean(np.abs(steps - np.round(steps)) < 1e-6) > 0.9:
+            return digits
+    return 5
+
+
+def _cuts_lobes(brdf, low: float, digits: int) -> bool:
+    """Whether the lowest value, which most have, cuts through lobes instead of being what they fall to.
+
+    A lobe that falls to a body passes values just above it, where it is several samples wide and the numbers are fine
+    enough: a Gaussian one is a fifth as wide between 1e-4 and 0.2 % above the body as between that and twice the body,
+    and half as wide between 1e-6 and 0.2 %.
+    """
+    above = brdf[brdf > low]
+    near, beyond = np.count_nonzero(above <= 1.002 * low), np.count_nonzero(above <= 2 * low)
+    lobes = np.count_nonzero(np.diff((brdf > low).astype(int), axis=0, prepend=0) > 0)
+    enough = {4: 16}.get(digits, 8)
+    return digits > 3 and beyond >= enough and near < 0.05 * beyond and len(above) >= RESOLVED * lobes
 
 
 # --- the side of the mirror direction --------------------------------------------------------------------

@@ -96,9 +96,9 @@ def test_a_description_is_no_data(tmp_path):
         formats.read(path)
 
 
-@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be", "utf-32", "utf-32-be"])
+@pytest.mark.parametrize("encoding", ["utf-32-le", "utf-32", "utf-32-be"])
 def test_encodings_that_are_not_read_are_named(tmp_path, encoding):
-    with pytest.raises(InputError, match="text in UTF-32, or in UTF-16 without its mark, which is not read; save it"):
+    with pytest.raises(InputError, match="text in UTF-32, which is not read; save it as UTF-8"):
         read(tmp_path, ("theta_i,theta_r,brdf\n" + lines(THETA_I, THETA_R, PLANE)).encode(encoding))
 
 
@@ -125,9 +125,11 @@ def test_words_below_the_rows_are_skipped_and_named(tmp_path):
     found = read(tmp_path, table + "\nEnd of data\n\x1a")
     agrees(found)
     assert any("'End of data'" in each.text for each in found.findings if each.code == "lines-skipped")
-    for cut in ("mean,0.1\n", "50,75"):  # statistics, and a file that was not written to its end
-        with pytest.raises(InputError, match="found 2 cells, wanted 3"):
-            read(tmp_path, table + cut)
+    found = read(tmp_path, table + "mean,0.1\n")
+    agrees(found)
+    assert any("'mean,0.1'" in each.text for each in found.findings if each.code == "lines-skipped")
+    with pytest.raises(InputError, match="found 2 cells, wanted 3"):  # a file that was not written to its end
+        read(tmp_path, table + "50,75")
 
 
 def test_rows_that_repeat_others_digit_for_digit_count_once(tmp_path):
