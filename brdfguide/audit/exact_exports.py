@@ -1,61 +1,118 @@
-"""What an answer says of files that were written beside it, once more, where a target holds the law as it is."""
+"""What an answer says of files that were written beside it, once more: over how many directions they were judged, how
+far their laws are from the surface, and how far from the measurement.
 
-from collections import defaultdict
+A file is what its numbers make of its target's law (`exact_targets`). Tables and learned factors do not hold what they
+were made of, and are left out. Where the numbers do not say which of two laws a file holds, it is the one that agrees.
+"""
 
-from mpmath import fsum, log, mpf, radians, sqrt
+from collections.abc import Mapping, Sequence
+
+from mpmath import isfinite, mpf, pi, radians
 
 from .exact_errors import Readings
 from .exact_followers import RowOfAnswer
-from .exact_surface import ANGLES, ExactSurface
+from .exact_judged import Judged, colours_of, judged
+from .exact_surface import ANGLES, ExactSurface, NoLaw, TooNarrow, surface_of
+from .exact_targets import SHADERS, laws_of_target, mirror_of_target
 from .rederived import Comparisons
 
-# of an incidence's peak, and 1/sr: what is darker than both does not count
-FAINTEST, DARKEST = mpf("1e-3"), mpf("1e-3")
+ROUNDED = 1e-12  # rms ln that is left of a law that is the surface's own
 
 
-def compare_exports(answer: dict, best: RowOfAnswer | None, data: Readings, found: Comparisons) -> None:
-    """Of every exact export the numbers that were written, its error, and of one channel over how many directions it
-    was judged and how far it is from the measurement. A refit or lossy one shows a shader's law, which is not written
-    down a second time."""
-    if best is None:
-        return
+def compare_exports(answer: dict, best: RowOfAnswer | None, data: Readings, found: Comparisons) -> int:
+    """Of every file of which the law is written down a second time. Gives how many of their numbers were only used."""
+    used, colours = 0, colours_of(answer["data"]["channels"])
+    known: dict[str, Judged | None] = {}
     for number, told in enumerate(answer.get("exports") or ()):
-        if told["status"] != "exact" or told["model"] != best.row["model"]:
+        place, written = f"exports[{number}]", told.get("written")
+        surface = _exported(answer, told, best)
+        if surface is None or not isinstance(written, dict):
             continue
-        place = f"exports[{number}]"
-        _compare_numbers(told.get("written"), best, f"{place}.written", found)
-        found.check(f"{place}.rms_ln", told["rms_ln"], 0.0)
-        found.check(f"{place}.seen", told["seen"], 0.0)
-        if len(data.wavelengths) == 1:
-            directions, error = _judged(best.surface, data)
-            found.check(f"{place}.directions", told["directions"], directions)
-            found.loosened(best.surface.slack).check(f"{place}.measured_rms_ln", told["measured_rms_ln"], error)
+        exact = told["status"] == "exact" and _is_itself(written, surface)
+        if exact:
+            _compare_numbers(written, surface, f"{place}.written", found)
+            found.check(f"{place}.rms_ln", told["rms_ln"], 0.0)
+            found.check(f"{place}.seen", told["seen"], 0.0)
+        name = told["model"]
+        if name not in known:
+            known[name] = judged(surface, data, colours) if colours else None
+        by = known[name]
+        if by is None:
+            continue
+        loose = found.loosened(surface.slack)
+        if exact:
+            loose.check(f"{place}.directions", told["directions"], by.directions)
+            loose.check(f"{place}.measured_rms_ln", told["measured_rms_ln"], by.off_the_data(by.itself, by.mirror))
+        else:
+            used += _compare_refit(told, by, place, loose)
+    return used
 
 
-def _compare_numbers(written, best: RowOfAnswer, place: str, found: Comparisons) -> None:
+def _exported(answer: dict, told: dict, best: RowOfAnswer | None) -> ExactSurface | None:
+    """The surface that a file was made of: the one fitted as this shader, else the recommended row's."""
+    shader = answer.get("as")
+    if shader is not None and shader["target"] == told["target"]:
+        try:
+            return surface_of(told["model"], shader["parameters"])
+        except (NoLaw, TooNarrow):
+            return None
+    return best.surface if best is not None and told["model"] == best.row["model"] else None
+
+
+def _is_itself(written: Mapping, surface: ExactSurface) -> bool:
+    """Whether what was written is the law with its own numbers, and no other target's."""
+    return written.keys() == surface.values.keys()
+
+
+def _compare_numbers(written: Mapping, surface: ExactSurface, place: str, found: Comparisons) -> None:
     """The parameters, angles in radians; of channels the number of each."""
-    if not isinstance(written, dict):
-        return
-    laws = {name: part.law for part in best.surface.parts for name in dict(part.keys).values()}
-    for key in written.keys() & best.surface.values.keys():
-        value, turned = best.surface.values[key], laws.get(key) in ANGLES.get(key.rpartition(".")[2], ())
+    laws = {name: part.law for part in surface.parts for name in dict(part.keys).values()}
+    for key in written.keys() & surface.values.keys():
+        value, turned = surface.values[key], laws.get(key) in ANGLES.get(key.rpartition(".")[2], ())
         right = [float(radians(mpf(each))) if turned else each for each in _many(value)]
         if len(_many(written[key])) == len(right):
             found.copy(f"{place}.{key}", _many(written[key]), right)
 
 
-def _many(value) -> list:
+def _compare_refit(told: dict, by: Judged, place: str, found: Comparisons) -> int:
+    """Gives how many of its numbers were used."""
+    target, written = told["target"], told["written"]
+    laws = laws_of_target(target, written, _axis(by.surface))
+    if not laws or by.has_mirror and target not in SHADERS:
+        return 0
+    mirror = mirror_of_target(target, written) if by.has_mirror else None
+    directions, errors = by.directions, [by.error(law) for law in laws]
+    if mirror is not None:
+        count, worst = by.against_mirror(mirror)
+        directions, errors = directions + count, [max(each, worst) for each in errors]
+    law, error = min(zip(laws, errors, strict=True), key=lambda each: _apart(each[1], told["rms_ln"]))
+    if not isfinite(error):
+        return 0
+    found.check(f"{place}.rms_ln", told["rms_ln"], error, absolute=ROUNDED)
+    found.check(f"{place}.directions", told["directions"], directions)
+    found.check(f"{place}.measured_rms_ln", told["measured_rms_ln"], by.off_the_data(law, mirror))
+    return sum(len(_many(each)) for each in written.values())
+
+
+def _apart(error: mpf, told: float | None) -> mpf:
+    return abs(error - mpf(told or 0))
+
+
+def _axis(surface: ExactSurface) -> mpf | None:
+    """The azimuth [rad] across the grain, where its streak lies, of the one law that has a grain by two widths, by two
+    exponents or by a ratio of correlation lengths."""
+    grained = [part for part in surface.parts if "axis" in dict(part.keys)]
+    if len(grained) != 1:
+        return None
+    values = {name: surface.at(key, 0) for name, key in grained[0].keys}
+    along = {
+        "alpha_x": lambda: values["alpha_x"] < values["alpha_y"],
+        "exponent_x": lambda: values["exponent_x"] > values["exponent_y"],
+        "ratio": lambda: values["ratio"] < 1,
+    }
+    known = [narrow() for name, narrow in along.items() if name in values]
+    return radians(values["axis"]) + (pi / 2 if known[0] else 0) if known else None
+
+
+def _many(value) -> Sequence:
     return value if isinstance(value, list) else [value]
-
-
-def _judged(surface: ExactSurface, data: Readings) -> tuple[int, mpf]:
-    """Over how many of the data's directions, and rms ln over those with a value."""
-    values, squares = defaultdict(list), []
-    for row, (sight, up) in enumerate(zip(data.sights, data.lit, strict=True)):
-        f = surface.brdf(sight.pair, 0, data.wavelengths[0]) if up else mpf(0)
-        if f > 0:
-            values[round(data.angles[row][0], 1)].append(f)
-            if data.values[row][0] > 0:
-                squares.append(log(f / mpf(data.values[row][0])) ** 2)
-    counted = (sum(f >= min(FAINTEST * max(of), DARKEST) for f in of) for of in values.values())
-    return sum(counted), sqrt(fsum(squares) / max(len(squares), 1))

@@ -13,10 +13,10 @@ from functools import cached_property
 from mpmath import asin, cos, fabs, mpf, pi, radians, sin, sqrt
 
 from ..records import dataclass
-from . import textbook_grain, textbook_more
+from . import textbook_grain, textbook_more, textbook_shaders
 from .textbook import ExactDirections
 
-GRAINED = {"ggx-aniso", "stam", *textbook_grain.LAWS, *textbook_grain.ROUGHER}
+GRAINED = {"ggx-aniso", "stam", *textbook_grain.LAWS, *textbook_grain.ROUGHER, *textbook_shaders.LAWS}
 # told in degrees, meant in radians
 ANGLES = {"tilt": {"lafortune"}, "spread": {"oren-nayar"}, "theta0": {"sgd-published"}, "axis": GRAINED}
 SHORT = {"he": "he-torrance"}

@@ -33,7 +33,7 @@ from mpmath import (
     workdps,
 )
 
-from . import textbook, textbook_grain
+from . import textbook, textbook_grain, textbook_shaders
 from .textbook import WAVELENGTH, ExactDirections, poisson_sum, unpolarised
 
 Law = Callable[..., Any]
@@ -345,6 +345,7 @@ def low_facet(p, a, b, c, n, k):
 LAWS: dict[str, Law] = {
     **textbook.LAWS,
     **textbook_grain.LAWS,
+    **textbook_shaders.LAWS,
     "abg": abg,
     "harvey-shack": harvey_shack,
     "abc": abc,
@@ -368,6 +369,7 @@ MIRRORS: dict[str, Law] = {
     "he-torrance-aniso": textbook_grain.he_mirror_aniso,
     "stam": textbook_grain.stam_mirror,
     "mirror": smooth_mirror,
+    **textbook_shaders.MIRRORS,
 }  # reflectance left to the mirror direction
 
 # compared in files of their own: a sum and integrals that hold fewer than thirteen digits, or take their time

@@ -94,14 +94,16 @@ def verify(
         _differences(rows, len(rows) == len(answer["ranking"]), found)
         by_name = {each.row["candidate"]: each for each in rows.values()}
         exact_followers.price(answer, by_name, data, found)
-        compare_exports(answer, by_name.get(answer["recommended"]), data, found)
+        written = compare_exports(answer, by_name.get(answer["recommended"]), data, found)
         if only is None:
             _orders(answer, found)
             exact_followers.ranks(answer, found)
             exact_followers.copies(answer, found)
             exact_followers.programs(answer, found)
             compare_stray_light(answer, found)
-    used = sum(map(_parameters_of, answer["ranking"])) + len((answer.get("held_out_on") or {"rows": ()})["rows"])
+    used = (
+        written + sum(map(_parameters_of, answer["ranking"])) + len((answer.get("held_out_on") or {"rows": ()})["rows"])
+    )
     return Verification(tuple(found.derived), used, left, max(_numbers(answer) - used - len(found.derived), 0))
 
 

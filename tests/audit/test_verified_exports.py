@@ -17,14 +17,14 @@ from .. import synthetic
 
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory):
-    """A lobe with an angle among its numbers, written exactly and by a shader's own law, and the answer on it."""
+    """A lobe with an angle among its numbers, written exactly and as a table, and the answer on it."""
     model, folder = models.get("lambertian+lafortune"), tmp_path_factory.mktemp("exported")
     data = synthetic.surface(model, synthetic.scan(theta_i=(15, 45, 70), step=10.0), {}, noise=0.03, seed=3)
     found = fit(data, ["lambertian+lafortune"], timing=False)
     surface = exporters.coloured(found.ranking.recommended.fit.surface)
     told = [
         exporters.export_to(f"{target}:{folder / target}", surface, data.geom, measured=data.brdf)[1]
-        for target in ("glsl", "osl", "mitsuba")
+        for target in ("glsl", "osl", "csv")
     ]
     document = json.loads(json.dumps(found.document | {"exports": plain(told)}))
     return verification.readings_of(found.measurement, document), document
