@@ -1,7 +1,8 @@
 """JSON with a declared shape, checked once: dataclasses say what may stand where, and an error says where it does not.
 
 A field's type is str, bool, int, float, a tuple[T, ...], a dict[str, T], a dataclass, or several of them with `|`; a
-field with a default may be missing. Keys that are not declared are passed over: later versions may write more.
+field with a default may be missing, and one that ends in _ stands for the key without it, a word of Python's own. Keys
+that are not declared are passed over: later versions may write more.
 """
 
 import json
@@ -101,11 +102,12 @@ class _Reader:
     def object(self, kind: Any, value: dict, place: str) -> Any:
         given = {}
         for name, hint, needed in _fields(kind):
-            if name in value:
-                given[name] = self.of(hint, value[name], _inner(place, name))
+            key = name.removesuffix("_")
+            if key in value:
+                given[name] = self.of(hint, value[key], _inner(place, key))
             elif needed:
                 where = f"{place}: " if place else ""
-                raise InputError(f"{self.name}: {where}there is no '{name}'; wanted {_wanted(hint)}")
+                raise InputError(f"{self.name}: {where}there is no '{key}'; wanted {_wanted(hint)}")
         return kind(**given)
 
 

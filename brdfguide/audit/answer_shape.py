@@ -278,12 +278,54 @@ class PrintedStrayLight:
 class PrintedExport:
     """A file that was written beside the answer; what stands in it is read as its target has it."""
 
+    target: str
     model: str
     status: str
+    written: dict[str, float | tuple[float, ...] | str | None] | None = None
     rms_ln: Number = None
     measured_rms_ln: Number = None
     seen: Number = None
     directions: int | None = None
+
+
+@dataclass(frozen=True)
+class PrintedKind:
+    """What decides between metal and dielectric."""
+
+    numbers: dict[str, Number]
+
+
+@dataclass(frozen=True)
+class PrintedStep:
+    """How the best candidate so far was given one thing more: what was tried, and what was taken."""
+
+    of: str
+    tried: tuple[PrintedEntry, ...]
+    taken: str | None
+    rms_ln: Number
+    held_out_rms_ln: Number
+
+
+@dataclass(frozen=True)
+class PrintedSetting:
+    """How far a law or a shader's setting is from the data."""
+
+    candidate: str
+    rms_ln: Number
+    off_percent: Number
+    seen: Number
+
+
+@dataclass(frozen=True)
+class PrintedShader:
+    """The best that one shader can do."""
+
+    target: str
+    rms_ln: float
+    off_percent: Number
+    parameters: dict[str, PrintedValue]
+    best_law: PrintedSetting
+    settings: tuple[PrintedSetting, ...]
 
 
 @dataclass(frozen=True)
@@ -305,6 +347,9 @@ class PrintedFit:
     off_plane: PrintedPrice | None = None
     numbers: tuple[PrintedCard, ...] | None = None
     exports: tuple[PrintedExport, ...] = ()
+    kind: PrintedKind | None = None
+    grown: tuple[PrintedStep, ...] = ()
+    as_: PrintedShader | None = None
 
 
 def refuse_gaps(answer: dict) -> None:

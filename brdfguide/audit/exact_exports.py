@@ -26,7 +26,7 @@ def compare_exports(answer: dict, best: RowOfAnswer | None, data: Readings, foun
     for number, told in enumerate(answer.get("exports") or ()):
         place, written = f"exports[{number}]", told.get("written")
         surface = _exported(answer, told, best)
-        if surface is None or not isinstance(written, dict):
+        if surface is None or not written or not all(map(_is_number, _all(written))):
             continue
         exact = told["status"] == "exact" and _is_itself(written, surface)
         if exact:
@@ -91,7 +91,7 @@ def _compare_refit(told: dict, by: Judged, place: str, found: Comparisons) -> in
     found.check(f"{place}.rms_ln", told["rms_ln"], error, absolute=ROUNDED)
     found.check(f"{place}.directions", told["directions"], directions)
     found.check(f"{place}.measured_rms_ln", told["measured_rms_ln"], by.off_the_data(law, mirror))
-    return sum(len(_many(each)) for each in written.values())
+    return len(_all(written))
 
 
 def _apart(error: mpf, told: float | None) -> mpf:
@@ -112,6 +112,14 @@ def _axis(surface: ExactSurface) -> mpf | None:
     }
     known = [narrow() for name, narrow in along.items() if name in values]
     return radians(values["axis"]) + (pi / 2 if known[0] else 0) if known else None
+
+
+def _all(written: Mapping) -> list:
+    return [number for value in written.values() for number in _many(value)]
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, (int, float))
 
 
 def _many(value) -> Sequence:

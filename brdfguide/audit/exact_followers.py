@@ -42,7 +42,8 @@ class RowOfAnswer(Protocol):
 
 
 def copies(answer: dict, found: Comparisons) -> None:
-    """The recommended row once more, and what to type of each row."""
+    """The recommended row once more, what to type of each row, and what a step took that candidates grew in, where the
+    next begins."""
     rows = {row["candidate"]: row for row in answer["ranking"]}
     same = rows.get(answer["recommended"])
     if same is not None:
@@ -51,6 +52,11 @@ def copies(answer: dict, found: Comparisons) -> None:
         for key, value in (row.get("typed") or {}).items():
             if key in row["parameters"]:
                 found.copy(f"ranking[{place}].typed.{key}", value, row["parameters"][key]["value"])
+    steps = answer.get("grown") or []
+    for place, (step, after) in enumerate(zip(steps, steps[1:], strict=False)):
+        taken = next((each for each in step["tried"] if each["candidate"] == step["taken"] == after["of"]), None)
+        if taken is not None:
+            found.copy(f"grown[{place + 1}]", {key: after[key] for key in after.keys() & taken.keys()}, taken)
 
 
 def regimes(row: dict, place: str, found: Comparisons) -> None:

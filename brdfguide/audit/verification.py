@@ -18,12 +18,14 @@ from ..errors import InputError
 from ..records import dataclass
 from . import exact_errors, exact_followers
 from .answer_shape import refuse_gaps
+from .exact_as_shader import compare_as_shader
 from .exact_errors import Readings
 from .exact_exports import compare_exports
 from .exact_floor import compare_floor
 from .exact_held_out import LookedAt, compare_held_out
 from .exact_instrument import compare_instrument, undrifted
 from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
+from .exact_kind import compare_kind
 from .exact_noise import compare_noise
 from .exact_ring import Ring
 from .exact_stray_light import compare_stray_light
@@ -67,6 +69,7 @@ def verify(
         _data_block(answer["data"], data, found)
         found.check("noise.values_told", answer["noise"].get("values_told"), sum(map(sum, data.told)))
         compare_noise(answer, data, found)
+        compare_kind(answer, data, found)
         grey = _grey_ring(answer, data)
         rows, again = {}, LookedAt.of(answer, data)
         drifted = any(_has(row, "instrument") or row.get("instrument") for row in answer["ranking"])
@@ -95,6 +98,7 @@ def verify(
         by_name = {each.row["candidate"]: each for each in rows.values()}
         exact_followers.price(answer, by_name, data, found)
         written = compare_exports(answer, by_name.get(answer["recommended"]), data, found)
+        written += compare_as_shader(answer, data, found)
         if only is None:
             _orders(answer, found)
             exact_followers.ranks(answer, found)

@@ -22,6 +22,7 @@ STEEP_DEG = 60.0  # what counts as grazing
 LOW_DEG = 35.0  # what counts as near the normal
 LOBE_DEG = 25.0  # from the mirror direction, within which the lobe lies
 BODY_DEG = 35.0  # from the mirror direction, beyond which the body is seen
+DECIMALS = 9  # of these angles, so that rounding decides of no direction
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,8 @@ class _Observed:
         values = np.where(measurement.usable, measurement.brdf, np.nan)
         geom = measurement.geom
         self.values, self.rows = values, measurement.incidences
-        self.from_mirror = np.degrees(2 * np.arcsin(np.minimum(np.sqrt(geom.mirror_distance2[:, 0]) / 2, 1.0)))
+        from_mirror = np.degrees(2 * np.arcsin(np.minimum(np.sqrt(geom.mirror_distance2[:, 0]) / 2, 1.0)))
+        self.from_mirror = np.round(from_mirror, DECIMALS)
         self.theta_r = geom.theta_r_deg[:, 0]
         self.grey = row_median(values)
         self.low = [theta for theta in self.rows if theta <= LOW_DEG and self._count(theta) >= 5]
