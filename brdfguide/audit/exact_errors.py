@@ -315,7 +315,7 @@ def neighbours_of_scans(data: Readings) -> list[int]:
 
 def scan_order(data: Readings) -> list[int]:
     """Rows by turn of the sample, incidence, azimuth and reflected angle; those alike in the order of the file."""
-    turn, theta = _turns(data), [_tenth(each[0]) for each in data.angles]
+    turn, theta = numbers_of_turns(data), [_tenth(each[0]) for each in data.angles]
     azimuth = [_tenth(abs((each[3] - each[1] + 180) % 360 - 180)) for each in data.angles]
     keys = list(zip(turn, theta, azimuth, data.signed_theta_r, strict=True))
     return sorted(range(len(theta)), key=lambda place: keys[place])
@@ -330,12 +330,7 @@ def _pieces(count: int) -> int:
     return min(max(count // 50, 4 * PIECES), 256)
 
 
-def was_turned(data: Readings) -> bool:
-    """Whether the sample was turned between scans."""
-    return any(_turns(data))
-
-
-def _turns(data: Readings) -> list[int]:
+def numbers_of_turns(data: Readings) -> list[int]:
     """The number of the turn of each row; 0 throughout where the sample was not turned, or was not held."""
     of_each = turn_azimuths(data)
     known = sorted(set(of_each))

@@ -10,26 +10,22 @@ of the caller, by the parameters themselves: a linear change of coordinates chan
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import cached_property, lru_cache
-from math import fsum as rounded_once
+from functools import cached_property
 from math import hypot
-from math import sqrt as root
-from operator import mul
 from statistics import median
 
 from mpmath import asinh, cbrt, exp, fdot, fsum, matrix, mpf, sqrt
 
 from ..records import dataclass
-from .exact_errors import LARGEST, SMALLEST, Readings, block_number, neighbours_of_scans, scan_order, was_turned
+from .exact_errors import LARGEST, SMALLEST, Readings
+from .exact_neighbours import alike_neighbours, orders_of_neighbours, ways_to_cut, with_values
+from .exact_scan_gains import GainsUndecided, scans_of_turns, variances_by_gains
 from .exact_surface import ExactSurface
 from .rederived import Comparisons
 
-MOST_SAMPLES = 2000  # directions beyond which a fit settles on some of them
+MOST_SAMPLES = 2000  # directions, of which slopes take their time
 DISCREPANT = 3.5  # standard deviations of the correlation
 MOST_CORRELATED = 0.95
-DECIMALS = 9  # of cosines by which neighbours are put in order
-FEWEST_PAIRS = 8
 EVEN = {"spread", "k", "sigma"}  # of which laws know the square
 LEAST_ERROR, MOST_ERROR = 1e-12, 1e6  # relative, of a stated standard error
 LEAST_DOUBT = 1e-12  # [1/sr]
@@ -55,11 +51,14 @@ class FittedRow:
 def compare_stderrs(row: FittedRow, place: str, data: Readings, found: Comparisons) -> None:
     """Every standard error that follows; nothing where the fit looked at more than the answer tells."""
     dim = any(data.limits)
-    if len(data.angles) > MOST_SAMPLES or data.robust or data.faults or was_turned(data):
+    if len(data.angles) > MOST_SAMPLES or data.robust or data.faults:
         return
     if dim and (data.by_scan or data.missed is None or row.metric not in ("ln", "seen")):
         return
-    errors = _Equations(row, _Part(*_with_values(data, row.residuals), row.metric)).stderrs()
+    try:
+        errors = _Equations(row, _Part(*with_values(data, row.residuals), row.metric)).stderrs()
+    except GainsUndecided:
+        return
     close = UNDER_A_COAT if any(each.coated for each in row.surface.parts) else STEEP
     for key, channel, right, lost in errors:
         told = row.parameters[key]["stderr"]
@@ -77,22 +76,6 @@ class _Part:
     data: Readings
     residuals: list[list]
     metric: str
-
-
-def _with_values(data: Readings, residuals: list[list]) -> tuple[Readings, list[list]]:
-    """The directions where a fit looks at a value in any channel, and the residuals there."""
-    kept = [place for place, known in enumerate(data.looked_at) if any(known)]
-    if len(kept) == len(data.angles):
-        return data, residuals
-    few = replace(
-        data,
-        angles=tuple(data.angles[place] for place in kept),
-        values=tuple(data.values[place] for place in kept),
-        stated=None if data.stated is None else tuple(data.stated[place] for place in kept),
-        taken=None if data.taken is None else [data.taken[place] for place in kept],
-        beyond=tuple(data.beyond[place] for place in kept) if data.beyond else (),
-    )
-    return few, [residuals[place] for place in kept]
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,6 +143,13 @@ class _Equations:
             return cosines * (f - value), cosines
         return left, 1 / max(f, SMALLEST)
 
+    def _read(self, s: int, c: int):
+        """What the law gives there."""
+        data, left = self.part.data, self.part.residuals[s][c]
+        if left is None or any(data.limits):
+            return data.sights[s].reading(self.row.surface, c, data.wavelengths[c])
+        return data.exact[s][c] * exp(left)
+
     @cached_property
     def _floors(self) -> list:
         """c of the generalised logarithm asinh(f/2c), by channel."""
@@ -226,10 +216,15 @@ class _Equations:
         residual = self.weighed[0]
         free = len(self.columns)
         variance = fsum(r * r for r in residual.values()) / max(len(self.values) - free, 1)
-        correlation, score, common = alike_neighbours(self.part.data, self.part.residuals)
+        correlation, score, common = alike_neighbours(self.part.residuals, orders_of_neighbours(self.part.data))
         wider = (1 + correlation) / (1 - min(correlation, mpf(MOST_CORRELATED)))
         variances = [wider * variance * each for each in self._spread(inverse)]
         variances[: len(shared)] = [common * each for each in variances[: len(shared)]]
+        if self.row.refined:
+            residual, factor = self.weighed
+            by_ln = {(s, c): each * self._read(s, c) for (s, c), each in factor.items()}
+            gains = variances_by_gains(self.part.data, residual, by_ln, self.columns, inverse)
+            variances = [a + b for a, b in zip(variances, gains, strict=True)]
         if self.row.refined and score >= DISCREPANT:
             variances = [max(pair) for pair in zip(variances, self._pulled(inverse), strict=True)]
         names = [(key, 0) for key in shared] + [(key, channel) for channel in self.channels for key in own]
@@ -273,7 +268,8 @@ class _Equations:
         residual, count = self.weighed[0], len(self.columns)
         pulls = [{at: residual[at] * v for at, v in column.items()} for column in self.columns]
         most = [mpf(0)] * count
-        for blocks in ways_to_cut(self.part.data):
+        whole = scans_of_turns(self.part.data)
+        for blocks in [*ways_to_cut(self.part.data), *([whole] if whole else [])]:
             sums: dict[int, list] = defaultdict(lambda: [mpf(0)] * count)
             for place, column in enumerate(pulls):
                 for (s, _), v in column.items():
@@ -308,78 +304,3 @@ def _by_stated_errors(data: Readings) -> list[list]:
     ]
     least = max(0.1 * median(v for v in clear if v is not None), LEAST_ERROR)
     return [[mpf(0) if v is None else 1 / mpf(min(max(v, least), MOST_ERROR)) ** 2 for v in row] for row in relative]
-
-
-def alike_neighbours(data: Readings, rows: list[list]) -> tuple[float, float, float]:
-    """Correlation of neighbours, its size in standard deviations, and how many channels say the same.
-
-    From the residuals as doubles, with sums that are rounded once: 1e-15 of a correlation is lost.
-    """
-    rough = [[None if v is None else float(v) for v in row] for row in rows]
-    common, worst, score = channels_alike(rough), 0.0, 0.0
-    for order in orders_of_neighbours(data):
-        pairs = [
-            (a, b)
-            for one, other in zip(order[1:], order, strict=False)
-            for a, b in zip(rough[one], rough[other], strict=True)
-            if a is not None and b is not None
-        ]
-        if len(pairs) < FEWEST_PAIRS:
-            continue
-        power = rounded_once(a * a + b * b for a, b in pairs) / 2
-        correlation = rounded_once(a * b for a, b in pairs) / power if power else 0.0
-        if correlation > worst:
-            worst, score = correlation, correlation * root(len(pairs) / common)
-    return worst, score, common
-
-
-def compare_discrepancy(told: dict, residuals: list[list], place: str, data: Readings, found: Comparisons) -> None:
-    """How far neighbours err together, as a flag `discrepancy` tells it."""
-    if len(data.angles) > MOST_SAMPLES:
-        return
-    correlation, score, _ = alike_neighbours(*_with_values(data, residuals))
-    found.check(f"{place}.correlation", told["correlation"], correlation)
-    found.check(f"{place}.z", told["z"], score)
-
-
-def channels_alike(rows: list[list]) -> float:
-    """How many channels say the same: Σ r²_cd over the number of channels, less what chance gives."""
-    channels = len(rows[0])
-    if channels == 1:
-        return 1.0
-    columns = [[0.0 if row[c] is None else row[c] for row in rows] for c in range(channels)]
-    squares = [rounded_once(v * v for v in column) for column in columns]
-    sizes, total = [max(each, float(SMALLEST)) for each in squares], float(sum(each > 0 for each in squares))
-    for a in range(channels):
-        for b in range(a):
-            both = rounded_once(map(mul, columns[a], columns[b]))
-            total += 2 * (both / sizes[a]) * (both / sizes[b])
-    chance = (channels - 1) / max(len(rows), 1)
-    return min(max(total / channels - chance, 1.0), float(channels))
-
-
-@lru_cache(maxsize=4)
-def orders_of_neighbours(data: Readings) -> list[list[int]]:
-    """Rows along scans, by tilt of the half vector, by half angle, by reflected angle; those alike as in the file."""
-    half = [float(sight.pair.cos_d) for sight in data.sights]
-    tilt = [float(sqrt(max(sight.pair.tan2_h, mpf(0)))) for sight in data.sights]
-    upright = [round(float(1 / (1 + sight.pair.tan2_h)), DECIMALS) for sight in data.sights]
-    numbers = range(len(half))
-    return [
-        scan_order(data),
-        sorted(numbers, key=lambda s: (round(tilt[s], 3), round(half[s], DECIMALS))),
-        sorted(numbers, key=lambda s: (round(half[s], 3), -upright[s])),
-        sorted(numbers, key=lambda s: (round(10 * data.angles[s][2]) / 10, -upright[s])),
-    ]
-
-
-@lru_cache(maxsize=4)
-def ways_to_cut(data: Readings) -> list[list[int]]:
-    """The number of the block of each row: along scans by incidence, in the other orders evenly."""
-    ways = [neighbours_of_scans(data)]
-    for order in orders_of_neighbours(data)[1:]:
-        blocks = [0] * len(order)
-        for rank, row in enumerate(order):
-            blocks[row] = block_number(rank, len(order))
-        ways.append(blocks)
-    return ways

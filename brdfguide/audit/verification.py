@@ -24,8 +24,9 @@ from .exact_exports import compare_exports
 from .exact_floor import compare_floor
 from .exact_held_out import LookedAt, compare_held_out
 from .exact_instrument import compare_instrument, undrifted
-from .exact_intervals import FittedRow, compare_discrepancy, compare_stderrs
+from .exact_intervals import FittedRow, compare_stderrs
 from .exact_kind import compare_kind
+from .exact_neighbours import compare_discrepancy
 from .exact_noise import compare_noise
 from .exact_ring import Ring
 from .exact_stray_light import compare_stray_light

@@ -12,7 +12,7 @@ pytest.importorskip("mpmath", reason="mpmath, of the extra `verify`, is not inst
 from mpmath import mpf, workdps
 
 from brdfguide import models
-from brdfguide.audit import exact_errors, exact_intervals, exact_surface, verification
+from brdfguide.audit import exact_errors, exact_intervals, exact_neighbours, exact_surface, verification
 from brdfguide.data import examine
 from brdfguide.data.measurement import Measurement
 from brdfguide.data.scans import arm_turned
@@ -172,11 +172,11 @@ def test_neighbours_are_put_in_the_order_of_the_fit(turns):
     )
     measurement = Measurement(geom, np.ones((len(turn), 1)))
     for ours, wanted in zip(
-        exact_intervals.orders_of_neighbours(data), standard_errors.orderings(measurement), strict=True
+        exact_neighbours.orders_of_neighbours(data), standard_errors.orderings(measurement), strict=True
     ):
         assert ours == wanted.tolist()
     ways = [standard_errors.even_blocks(each) for each in standard_errors.orderings(measurement)[1:]]
-    for blocks, wanted in zip(exact_intervals.ways_to_cut(data)[1:], ways, strict=True):
+    for blocks, wanted in zip(exact_neighbours.ways_to_cut(data)[1:], ways, strict=True):
         assert blocks == wanted.tolist()
 
 
