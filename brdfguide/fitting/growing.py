@@ -18,6 +18,7 @@ from . import cross_validation
 from .coarse_search import Given, Search, Sought, free_count, search_all
 from .diagnostics import standard_errors
 from .fit_options import FitOptions
+from .missed import few_directions
 from .plausible import lobe_too_bright
 from .prepared import Prepared, few_channels
 from .ranked import BETTER, Step, Tried
@@ -228,7 +229,7 @@ def _shown(search: Search, data: Prepared) -> str:
     correlation, score = standard_errors.serial_correlation(residuals, standard_errors.orderings(few))
     if rms(residuals) < NO_ERROR:
         return ""
-    if not standard_errors.discrepancy(residuals, correlation, score) and _may_be_noise(rms(residuals), few):
+    if not standard_errors.discrepancy(residuals, correlation, score) and _may_be_noise(rms(residuals), few, data):
         return ""
     known = np.isfinite(residuals)
     mean = np.where(known, residuals, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1)
@@ -248,9 +249,11 @@ def _shown(search: Search, data: Prepared) -> str:
     return f"{name} is {_percent(size)}"
 
 
-def _may_be_noise(error: float, few: Measurement) -> bool:
+def _may_be_noise(error: float, few: Measurement, data: Prepared) -> bool:
     """Whether single values may scatter so much. Of directions far apart the misfit of none is like its neighbour's, so
-    that its size has to tell."""
+    that its size has to tell; of others that tells."""
+    if not few_directions(data.whole):
+        return True
     relative = noise.estimated_noise(few)
     stated = stated_noise(few)
     known = relative.relative is not None or stated > 0

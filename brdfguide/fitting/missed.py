@@ -33,6 +33,7 @@ from .reading import reading
 
 LEAST_SAMPLES = 4
 FEW = 100  # directions up to which the most probable law counts, beyond that with least error (ours)
+FEW_IN_PLANE = 32  # the same in the plane of incidence, where scans tell more of what lies between them (ours)
 SAMPLES = 300  # measured directions that count
 TILT = 0.1  # tan of the half vector's tilt up to which what is missed changes with the tilt, beyond with its logarithm
 # of the kernel: asinh(tan tilt/TILT), angle from light to half vector [deg], θi + θr [deg], sin θi sin θr cos φ
@@ -66,11 +67,16 @@ def _places_once(to: Directions) -> tuple[np.ndarray, np.ndarray]:
     return places[first], which.reshape(-1)
 
 
+def few_directions(measurement: Measurement) -> bool:
+    """Whether directions lie too far apart for neighbours to tell of each other, enough that laws can be compared."""
+    count = int(np.count_nonzero(measurement.has_value))
+    return LEAST_SAMPLES <= count <= (FEW_IN_PLANE if measurement.in_plane else FEW)
+
+
 def likelihoods(rows: Sequence[Row], measurement: Measurement) -> dict[int, float] | None:
     """How probable each of some laws is, by the identity of its row's fit; None for data of so many directions that
     least error and angles left out tell more, and for too few that every law is compared with."""
-    count = int(np.count_nonzero(measurement.has_value))
-    if not LEAST_SAMPLES <= count <= FEW or len(rows) < 2:
+    if not few_directions(measurement) or len(rows) < 2:
         return None
     geom = _everywhere(highest_deg(measurement))
     there = Instrument(geom.at(measurement.geom.wavelength), measurement.solid_angle)

@@ -92,3 +92,10 @@ def test_another_metric_and_a_percentage_are_heeded(few):
     assert "probable" not in asked.because
     near = choosing.recommending(replace(few.ranking, close="100%"), few.measurement)
     assert any(row.close for row in near.rows) and near.recommended.fit.free <= few.ranking.recommended.fit.free
+
+
+def test_scans_in_the_plane_tell_of_each_other():
+    scans = synthetic.surface(GGX, synthetic.scan((20, 50), 5.0), PLASTIC, noise=0.02)
+    assert missed.FEW_IN_PLANE < len(scans.brdf) <= missed.FEW and scans.in_plane
+    assert not missed.few_directions(scans)
+    assert missed.few_directions(synthetic.surface(GGX, synthetic.hemisphere(len(scans.brdf)), PLASTIC))
