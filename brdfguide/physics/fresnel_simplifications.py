@@ -18,10 +18,10 @@ def constant_cost(n, k, highest: float = 85.0) -> tuple[float, float]:
 
 
 @lru_cache(maxsize=256)
-def index_cost(n: float, guess: float = 1.5) -> float:
-    """The largest relative error, with its sign, of F with `guess` in place of `n` over 0..85 degrees."""
+def index_cost(n: float, k: float = 0.0, guess: float = 1.5) -> float:
+    """The largest relative error, with its sign, of F with `guess` in place of n + ik over 0..85 degrees."""
     cos_i = np.cos(np.radians(ANGLES))
-    error = fresnel(cos_i, guess) / fresnel(cos_i, n) - 1
+    error = fresnel(cos_i, guess) / fresnel(cos_i, n, k) - 1
     return float(error[np.argmax(np.abs(error))])
 
 

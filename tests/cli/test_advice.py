@@ -217,6 +217,8 @@ def test_lists_come_as_text_and_as_json(words):
 def test_index_both_ways():
     assert answer("index", "--f0", "0.04")["entries"][0]["n"] == pytest.approx(1.5)
     assert answer("index", "--n", "1.5")["entries"][0]["f0"] == pytest.approx(0.04)
+    absorbing = answer("index", "--n", "1.5", "--k", "0.2")["entries"][0]
+    assert absorbing["simplified"]["worst_to_85_deg"] == pytest.approx(0.04 / absorbing["f0"] - 1)  # it was 0
     silver = answer("index", "silver")["entries"][0]
     assert silver["f0"] == pytest.approx(0.9635, abs=5e-5) and silver["wavelength_nm"] is None
     assert [each["wavelength_nm"] for each in answer("index", "gold")["entries"]] == [650, 550, 450]

@@ -42,6 +42,12 @@ def test_about_the_normal_a_narrow_lobe_is_held_by_azimuths_close_to_its_own(tar
     assert statement.rms_ln < 0.03 and "1 % could not be held" in statement.notes[0]
 
 
+def test_a_lobe_between_two_angles_of_a_table_about_the_normal_is_lost_and_said_to_be():
+    mirror = surface("abg", abg__a=1e-5, abg__b=1e-5, abg__g=1.8)
+    statement = exporters.export("lighttools", mirror).statement
+    assert statement.status == "lossy" and "degrees wide, lies between angles 1 apart; zemax" in statement.lost[0]
+
+
 @pytest.mark.parametrize("width, widest", [(0.98, 10.0), (0.5, 4.0), (16.0, 4.0), (90.0, 60.0)])
 def test_azimuths_about_the_normal_go_from_end_to_end_and_widen_from_the_mirror_direction(width, widest):
     steps = np.diff(goniometric._azimuths(width, widest))

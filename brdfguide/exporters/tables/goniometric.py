@@ -172,8 +172,12 @@ def table_of(target: str, surface: ColouredSurface, geom: Geometry | None, *, se
     about_mirror = _counts_from_mirror(target)
     # even steps about the normal are wider than the lobe that a mirror is blurred to
     kept, lost = blurred(surface) if about_mirror else (surface, refuse_mirror(surface, target, "zemax"))
+    width, finest = half_width(kept), ABOUT_NORMAL[-1][-1]
+    if not about_mirror and width < finest:
+        between = f"its lobe, {width:.2g} degrees wide, lies between angles {finest:g} apart; zemax has them as close"
+        lost = (*lost, between)
     held = held_in_table(surface, kept, lost, several=several)
-    made, note = _closest(held.brdf, half_width(kept), about_mirror)
+    made, note = _closest(held.brdf, width, about_mirror)
     size = {"theta_i": len(made.theta_i), "azimuths": len(made.azimuth), "polars": len(made.polar)}
     statement = held.stated(target, made.read, geom, size, note)
     measurement = made.measurement(held.channels, held.wavelength, surface.name, surface.model.name)

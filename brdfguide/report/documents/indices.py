@@ -91,7 +91,7 @@ def _entry(name: str, n: float, k: float, wavelength: float | None, source: str,
         entry["eq2"] = {"n": equivalent, "within_5_percent_to_deg": up_to}
         entry["simplified"] = {"as": "constant", "value": constant, "worst_to_75_deg": to_75, "worst_to_85_deg": to_85}
     elif n > 1:
-        entry["simplified"] = {"as": "n = 1.5", "value": 1.5, "worst_to_85_deg": index_cost(n)}
+        entry["simplified"] = {"as": "n = 1.5", "value": 1.5, "worst_to_85_deg": index_cost(n, k)}
     else:
         entry["simplified"] = None
     return entry
