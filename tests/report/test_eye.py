@@ -112,6 +112,14 @@ def test_every_figure_of_a_description_may_be_shown(name):
     assert faults(promises.promised(found.candidates, name=name)) == []
 
 
+@pytest.mark.parametrize("name, spiky", [("porcelain", True), ("copper", False)])
+def test_spikes_are_explained_where_there_are_some(name, spiky):
+    """The He-Torrance of copper has a mirror image that is nothing to see."""
+    found = advisor.recommend(material.read_material(library.path(name)))
+    assert any(each.model.has_mirror for each in found.candidates)
+    assert ("spikes" in promises.promised(found.candidates, name=name).get_supxlabel()) == spiky
+
+
 @pytest.mark.parametrize("number", [1, 2, 13, 14])
 def test_the_reports_figures_of_laws_may_be_shown(number):
     assert faults(paper.plot_figure(number)) == []

@@ -3,6 +3,7 @@
 Loads no plotting library.
 """
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from .palette import Stroke, stroke
 NOMINAL_UM = 0.55  # the wavelength the report shows
 FAMILIES = ("wave optics", "Phong", "Ward", "Lafortune")  # the report's four, drawn beside the best
 MOST_LINES = 5
+SEEN_SPIKE = 1.05  # times the lobe beside it; on a log axis of some decades less is nothing to see
 MIRROR_DEG = 1.0  # half angle of the receiver that a mirror image is drawn as seen by, where the data have none
 
 
@@ -108,6 +110,15 @@ def curve(
         receiver = Instrument(geom, solid_angle_of(MIRROR_DEG))
         values = values + (surface.mirror(geom) * receiver.beam)[:, 0]
     return values
+
+
+def has_spike(line: Line, channel: int, theta_i: float) -> bool:
+    """Whether a mirror image stands out of its curve at an incidence."""
+    if not line.shows_image:
+        return False
+    both = line, replace(line, image=False)
+    with_it, without = (curve(each, channel, theta_i, np.array([theta_i]))[0] for each in both)
+    return bool(with_it > SEEN_SPIKE * without)
 
 
 def grid_of(theta_i, low, high):

@@ -8,7 +8,7 @@ from ... import printable
 from ...advice.recommend import Proposal
 from ...models.surface import Surface
 from . import spheres, style
-from .lines import MIRROR_DEG, MOST_LINES, Line, curve, grid_of, without_zeros
+from .lines import MIRROR_DEG, MOST_LINES, Line, curve, grid_of, has_spike, without_zeros
 
 MOST_LOOKS = 3  # previews on a page
 DECADES = 6  # most of an axis
@@ -42,7 +42,7 @@ def promised(candidates: Sequence[Proposal], thetas=(10.0, 45.0, 75.0), width_mm
         title = f"{printable.label(name, 60)}: {_what(lines)}" if name else _what(lines)
         handles = axes[0].get_legend_handles_labels()[0]
         fig.legend(handles=handles, loc="outside upper left", ncols=2, title=title, title_fontsize=9, alignment="left")
-        if any(line.shows_image for line in lines):
+        if any(has_spike(line, 0, theta) for line in lines for theta in thetas):
             style.origin(fig, f"spikes: mirror images as a receiver of half angle {MIRROR_DEG:g}° reads them")
         return fig
 
