@@ -72,3 +72,8 @@ def test_after_a_fit_the_error_against_the_measurement_stands_beside(tmp_path):
 
 def test_without_a_page_or_the_option_there_are_none():
     assert "numbers" not in answer("recommend", "copper", "-m", "ggx", "--no-timing")
+
+
+@pytest.mark.parametrize("words, named", [("gltf", "gltf"), ("porcelain", "porcelain (lambertian+he-torrance)")])
+def test_a_surface_is_named_once(words, named):
+    assert run("numbers", words).stdout.startswith(f"{named}: the numbers to type")

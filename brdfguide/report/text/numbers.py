@@ -25,7 +25,8 @@ LEGEND = {
 
 def numbers_text(document: dict) -> str:
     """For people: a paragraph for each program, first what to type."""
-    head = f"{document['surface']} ({document['model']}): the numbers to type, and how far off they are"
+    of = "" if document["surface"] == document["model"] else f" ({document['model']})"
+    head = f"{document['surface']}{of}: the numbers to type, and how far off they are"
     lines = [line for each in document["programs"] for line in _lines(each, document["model"])]
     return "\n".join([_folded(head), "", *lines, "", _folded(f"colour: {document['colour']}")])
 
