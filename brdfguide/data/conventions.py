@@ -182,7 +182,7 @@ def _cuts_lobes(brdf, low: float, digits: int) -> bool:
     near, beyond = np.count_nonzero(above <= 1.002 * low), np.count_nonzero(above <= 2 * low)
     lobes = np.count_nonzero(np.diff((brdf > low).astype(int), axis=0, prepend=0) > 0)
     enough = {4: 16}.get(digits, 8)
-    return digits > 3 and beyond >= enough and near < 0.05 * beyond and len(above) >= RESOLVED * lobes
+    return bool(digits > 3 and beyond >= enough and near < 0.05 * beyond and len(above) >= RESOLVED * lobes)
 
 
 # --- the side of the mirror direction --------------------------------------------------------------------

@@ -10,12 +10,14 @@ LOOKED_AT = 40
 LEAST = 3  # lines that say so
 BRACKETED = re.compile(r"[\[({]{1,3}([^\[\](){}]{3,})[\])}]{1,3}\s{0,9}[,;]?")
 ONLY_BRACKETS = re.compile(r"(?:[A-Za-z_]\w{0,60}\s{0,9}=\s{0,9})?[\[({]{1,3}|[\])}]{1,3}[;,]?")
-NAMED = re.compile(r"([A-Za-z][\w.]{0,40})\s{0,3}[=:]\s{0,3}([-+]?[\d.][^\s,;]{0,40})(?:\s{0,3}[,;]|\s|$)\s{0,9}")
-MOST_NAMES = 200
+VALUE = r"\s{0,3}[=:]\s{0,3}([-+]?[\d.][^\s,;]{0,40})"
+NAMED = re.compile(r"([A-Za-z][\w.]{0,40})" + VALUE)
+MOST_NAMES = 200  # rows that are columns, or columns
 
 
 def as_rows(content: Lines) -> Lines:
     """The lines of a table as rows under names, whatever lies around them."""
+    content = _without_frame(content)
     first = [text.strip() for _, text in content[:LOOKED_AT]]
     if sum(bool(BRACKETED.fullmatch(text)) for text in first) >= LEAST:
         return _without_brackets(content)
@@ -24,6 +26,16 @@ def as_rows(content: Lines) -> Lines:
     if LEAST <= len(content) <= MOST_NAMES and all(text[:1].isalpha() or text[:1] in "\"'" for text in first):
         return _turned(content)
     return content
+
+
+def _without_frame(content: Lines) -> Lines:
+    """Without the bars at both ends of the lines, where all that have bars have these."""
+    if not any("|" in text for _, text in content[:LOOKED_AT]):
+        return content
+    barred = [text.strip() for _, text in content if "|" in text]
+    if not all(len(text) > 2 and text[0] == text[-1] == "|" for text in barred):
+        return content
+    return [(number, text.strip()[1:-1] if "|" in text else text) for number, text in content]
 
 
 def _without_brackets(content: Lines) -> Lines:
@@ -38,15 +50,17 @@ def _without_brackets(content: Lines) -> Lines:
 
 def _without_names(content: Lines) -> Lines:
     """`theta_i=10 theta_r=-75 brdf=0.1` as names above rows, where every line has the same names."""
-    rows: Lines = []
-    names: list[str] = []
-    for number, text in content:
-        cells = NAMED.findall(text.strip())
-        names = names or [name for name, _ in cells]
-        if len(cells) < LEAST or [name for name, _ in cells] != names or NAMED.sub("", text.strip()):
-            return content
-        rows.append((number, "\t".join(cell for _, cell in cells)))
-    return [(content[0][0], "\t".join(names)), *rows]
+    names = [name for name, _ in NAMED.findall(content[0][1].strip())]
+    if not LEAST <= len(names) <= MOST_NAMES:
+        return content
+    line = re.compile(r"[\s,;]{1,9}".join(rf"{re.escape(name)}{VALUE}" for name in names) + r"\s{0,9}[,;]?")
+    rows = [(number, line.fullmatch(text.strip())) for number, text in content]
+    if not all(match for _, match in rows):
+        return content
+    return [
+        (content[0][0], "\t".join(names)),
+        *((number, "\t".join(match.groups())) for number, match in rows if match),
+    ]
 
 
 def _turned(content: Lines) -> Lines:

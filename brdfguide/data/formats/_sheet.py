@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...errors import InputError
 from ...finding import Finding
 from ...records import dataclass
 from ..columns.vocabulary import word_set
@@ -32,6 +33,7 @@ RULE = "|+-=: \t"  # of what the lines between the names and rows of Markdown an
 DIGITS = frozenset("0123456789")
 A_NUMBER = DIGITS | set("-+.")  # what one begins with
 SUMMARIES = word_set("mean average avg std stdev sd min max minimum maximum median sum total count rms")  # of columns
+LONGEST_LINE, LONGEST_HEAD = 2**21, 20_000  # letters, lines
 LOOKED_AT = 40  # data lines that decide the style
 
 
@@ -70,6 +72,7 @@ def read_sheet(
     comments.
     """
     comments, comment_lines, content = [], [], []
+    _check_lengths(source)
     for number, text in enumerate(source.lines, 1):
         stripped = text.strip()
         if not stripped.isascii() and not stripped[:1].isalpha() and not stripped.startswith(COMMENTS):
@@ -82,19 +85,14 @@ def read_sheet(
             comment_lines.append(number)
         elif stripped.strip(",;\t |") and stripped.strip(RULE):
             content.append((number, text))
-    content = as_rows(_without_frame(content))
+    content = as_rows(content)
     if not content:
         raise source.error(
             "there is no table in it, only comments and blank lines" if comments else "the file is empty"
         )
-    first = _first_row(content)
-    if first is None and source.name.lower().endswith((".yaml", ".yml")):
-        raise source.error(
-            "a description without measured values: `brdfguide recommend` takes it; one of photographs has the key "
-            "'photographs'"
-        )
+    first = _first_row(content[:LONGEST_HEAD])
     if first is None:
-        raise source.error(f"no row of numbers found; the first line is '{content[0][1].strip()[:60]}'", content[0][0])
+        raise _without_rows(source, content[0])
     delimiter, decimal = _style(
         [text for _, text in content[first : first + LOOKED_AT]], content[first - 1][1] if first else None
     )
@@ -114,6 +112,20 @@ def read_sheet(
     )
 
 
+def _without_rows(source: Source, line: tuple[int, str]) -> InputError:
+    if source.name.lower().endswith((".yaml", ".yml")):
+        text = "a description without measured values: `brdfguide recommend` takes it"
+        return source.error(f"{text}; one of photographs has the key 'photographs'")
+    return source.error(f"no row of numbers found; the first line is '{line[1].strip()[:60]}'", line[0])
+
+
+def _check_lengths(source: Source) -> None:
+    """Raises InputError for a line that is no row."""
+    if len(source.text) > LONGEST_LINE and (longest := max(map(len, source.lines))) > LONGEST_LINE:
+        number = next(number for number, text in enumerate(source.lines, 1) if len(text) == longest)
+        raise source.error(f"found a line of {longest} letters; wanted rows of at most {LONGEST_LINE}", number)
+
+
 def _comment(stripped: str, content, opens_a_section) -> str:
     """What a comment says, and a line that opens a section; nothing of other lines, and of empty comments a blank."""
     if stripped.startswith(COMMENTS):
@@ -123,16 +135,6 @@ def _comment(stripped: str, content, opens_a_section) -> str:
     if (stripped[:1] == ";" or stripped[:1].isalpha() and among_rows) and opens_a_section(bare):
         return bare
     return ""
-
-
-def _without_frame(content):
-    """Without the bars at both ends of the lines, where all that have bars have these."""
-    if not any("|" in text for _, text in content[:LOOKED_AT]):
-        return content
-    barred = [text.strip() for _, text in content if "|" in text]
-    if not all(len(text) > 2 and text[0] == text[-1] == "|" for text in barred):
-        return content
-    return [(number, text.strip()[1:-1] if "|" in text else text) for number, text in content]
 
 
 def _first_row(content) -> int | None:

@@ -10,15 +10,24 @@ from ._cells import is_number
 from ._stated import sheet_of
 from ._tables import as_text
 from ._written import reads, tidy
-from .format import OF_TABLES, Format, Options, Source
+from .format import OF_TABLES, TEXT_LIMIT, Format, Options, Source
 
+PASTED = 2**24  # bytes of pages and papers that are believed: what is made of them takes fifty times as much
+MOST_CELLS = 1_000_000
 LOOKED_AT = 60  # rows in which a table has one of at least two numbers
 Rows = list[list]
 Tables = Callable[[Source], Mapping[str, Rows]]  # rows of cells by the table's name
 
 
 def format_of_sheets(
-    name: str, suffixes: tuple[str, ...], recognises: Callable[[bytes], bool], tables: Tables, *, word: str, kind: str
+    name: str,
+    suffixes: tuple[str, ...],
+    recognises: Callable[[bytes], bool],
+    tables: Tables,
+    *,
+    word: str,
+    kind: str,
+    limit: int = TEXT_LIMIT,
 ) -> Format:
     """The format of a kind of file whose tables a function gives by name. It raises InputError for a damaged file, for
     one without a table or with several of which none is chosen by `--select word=NAME`, and as tables of text do."""
@@ -32,7 +41,13 @@ def format_of_sheets(
         table, _ = _groups.selected(text, sheet_of(text, options), rest)
         return _groups.values_of_group(text, table, column)
 
-    return Format(name, suffixes, recognises, read, own_side=False, groups=groups, options=OF_TABLES)
+    return Format(name, suffixes, recognises, read, limit, own_side=False, groups=groups, options=OF_TABLES)
+
+
+def check_cells(source: Source, count: int) -> None:
+    """Raises InputError for more cells than such a file can honestly hold, such as those that one cell stands for."""
+    if count > MOST_CELLS:
+        raise source.error(f"its tables have more than {MOST_CELLS} cells, more than such a file can honestly hold")
 
 
 def _chosen(source: Source, every: Mapping[str, Rows], select, word: str) -> tuple[Source, tuple]:

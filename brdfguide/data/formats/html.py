@@ -42,7 +42,7 @@ def _tables(source: Source) -> dict[str, _sheets.Rows]:
         elif tag in ("td", "th") and opened:
             opened[-1] += [[]] if not opened[-1] else []
             opened[-1][-1].append((words, _spans(attributes)))
-    tables = {str(place): _spread(rows) for place, rows in enumerate(found, 1)}
+    tables = {str(place): _spread(source, rows) for place, rows in enumerate(found, 1)}
     for place, caption in captions.items():
         tables[str(place + 1)].append([f"# {caption}"])
     return tables
@@ -72,10 +72,11 @@ def _spans(attributes: str) -> tuple[int, int]:
     return max(said.get("col", 1), 1), max(said.get("row", 1), 1)
 
 
-def _spread(rows: list) -> _sheets.Rows:
+def _spread(source: Source, rows: list) -> _sheets.Rows:
     """The rows with a cell that spans several rows in each of them, and nothing in all but the first of its columns."""
     found: _sheets.Rows = []
     left: dict[int, tuple[str, int]] = {}  # column -> a cell from above, and for how many rows more
+    count = 0
     for row in rows:
         cells: list[str] = []
         above, left = left, {}
@@ -86,8 +87,12 @@ def _spread(rows: list) -> _sheets.Rows:
                 cells.append(text)
             left |= {len(cells): (words, high - 1)} if high > 1 else {}
             cells += [words, *[""] * (wide - 1)] if wide else []
+            _sheets.check_cells(source, count + len(cells))
         found.append(cells)
+        count += len(cells)
     return found
 
 
-FORMAT = _sheets.format_of_sheets("html", (".html", ".htm"), recognises, _tables, word="table", kind="HTML table")
+FORMAT = _sheets.format_of_sheets(
+    "html", (".html", ".htm"), recognises, _tables, word="table", kind="HTML table", limit=_sheets.PASTED
+)

@@ -12,7 +12,7 @@ from ._stated import with_stated
 from ._tables import sheet_of_columns
 from .format import OF_TABLES, Format, Options, Source
 
-LIMIT = 2**26  # bytes: what Python makes of it takes ten times as much
+LIMIT = 2**24  # bytes: what Python makes of it takes up to sixty times as much
 NAMES = ("columns", "names", "header", "fields")  # keys of the columns' names
 WANTED = 'wanted rows with names, [{"theta_i": 10, ...}], or columns by name, {"theta_i": [...]}'
 

@@ -70,6 +70,7 @@ MEANT = {  # command -> what it stands for; others stand for nothing but what is
     "textemdash": "-",
     **{word: word for word in word_set("theta phi lambda alpha beta mu sigma pi psi rho cos sin log ln Delta delta")},
 }
+LONGEST_ROW = 10_000  # letters, on all its lines
 ESCAPED = str.maketrans({"\x01": "%", "\x02": "&", "\x03": "#", "\x04": "_"})
 PLAIN = {
     "\\%": "\x01",
@@ -98,21 +99,27 @@ def _tables(source: Source) -> dict[str, _sheets.Rows]:
     found: dict[str, _sheets.Rows] = {}
     captions: _sheets.Rows = []
     rows: _sheets.Rows | None = None if BEGINS.search(source.text) else found.setdefault("1", [])
-    begun = ""
+    begun, count = "", 0
     for number, line in enumerate(source.lines):
         line = _uncommented(line)
         if caption := CAPTION.search(line):
             captions.append([f"# {_plain(caption[1])}"])
         if begin := BEGINS.search(line):
+            count += number
             rows, begun = found.setdefault(str(len(found) + 1), [[]] * number), ""
             line = _without_columns(line[begin.end() :])
         end = ENDS.search(line)
         if rows is None:
             continue
+        before = len(rows)
         *whole, left = (begun + " " + (line[: end.start()] if end else line)).split("\\\\")
         rows += [_cells(each) for each in whole[:1]] or [[]]
         rows += [_cells(each) for each in whole[1:]]
         begun = left
+        if len(begun) > LONGEST_ROW:
+            raise source.error(f"found a row of more than {LONGEST_ROW} letters; wanted '\\\\' behind it", number + 1)
+        count += sum(map(len, rows[before:]))
+        _sheets.check_cells(source, count)
         if end:
             rows.append(_cells(begun))
             rows, begun = None, ""
@@ -160,4 +167,6 @@ def _plain(text: str) -> str:
     return " ".join(text.translate(ESCAPED).replace("\\", "").split())
 
 
-FORMAT = _sheets.format_of_sheets("latex", (".tex",), recognises, _tables, word="table", kind="LaTeX table")
+FORMAT = _sheets.format_of_sheets(
+    "latex", (".tex",), recognises, _tables, word="table", kind="LaTeX table", limit=_sheets.PASTED
+)

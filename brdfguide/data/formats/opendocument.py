@@ -10,7 +10,7 @@ import re
 
 from ...errors import InputError
 from . import _sheets
-from .format import TEXT_LIMIT, Source
+from .format import Source
 
 KIND = re.compile(rb"PK\x03\x04.{26}mimetypeapplication/vnd\.oasis\.opendocument\.spreadsheet", re.DOTALL)
 CONTENT = "content.xml"
@@ -31,7 +31,7 @@ def _tables(source: Source) -> dict[str, _sheets.Rows]:
     try:
         with zipfile.ZipFile(io.BytesIO(bytes(source.data))) as archive:
             size = archive.getinfo(CONTENT).file_size
-            if size > min(TEXT_LIMIT, 2**20 + MOST_SWELLING * len(source.data)):
+            if size > min(4 * _sheets.PASTED, 2**20 + MOST_SWELLING * len(source.data)):
                 raise source.error(f"unpacks to {size / 1e6:.0f} MB, more than such a sheet can honestly hold")
             with archive.open(CONTENT) as stream:
                 return _read(source, ElementTree.XMLPullParser(["start", "end"]), stream)
@@ -48,6 +48,7 @@ def _read(source: Source, parser, stream) -> dict[str, _sheets.Rows]:
     sheets: dict[str, _sheets.Rows] = {}
     rows: _sheets.Rows = []
     cells: list = []
+    count = 0
     while piece := stream.read(PIECE):
         if b"<!DOCTYPE" in piece or b"<!ENTITY" in piece:
             raise source.error("XML with a document type of its own is not read")
@@ -63,7 +64,10 @@ def _read(source: Source, parser, stream) -> dict[str, _sheets.Rows]:
                 cells += [value] * _times(element, "number-columns-repeated", value == "")
             elif what == ("end", "table-row"):
                 empty = not any(cell != "" for cell in cells)
-                rows += [[] if empty else cells] * _times(element, "number-rows-repeated", empty)
+                times = _times(element, "number-rows-repeated", empty)
+                rows += [[] if empty else cells] * times
+                count += 0 if empty else times * len(cells)
+                _sheets.check_cells(source, max(count, len(cells)))
                 element.clear()
     return sheets
 
