@@ -95,16 +95,16 @@ function or a factor in a name (`sqrt(BRDF)`, `BRDF x 10^3`) is not undone: such
 
 | in a cell | what is made of it |
 |---|---|
-| `0.10 ± 0.01`, `0.10 +/- 0.01`, `0.10 ± 5 %`, `0.10(1)` | the value and its standard error; errors of angles are left out |
-| `10 deg`, `10°`, `10°30'`, `550 nm`, `45 %`, `-3 dB`, `0.1 1/sr` | the column's unit: one for all cells, and none beside another in its name |
+| `0.10 ± 0.01`, `0.10 +/- 0.01`, `0.10 ± 5 %`, `0.10(1)` | the value and its standard error; of angles it is left out |
+| `10 deg`, `10°`, `10°30'`, `550 nm`, `45 %`, `-3 dB`, `0.1 1/sr` | the column's unit: one for all its cells |
 | `9.8×10⁻³`, `9.8 x 10^-3`, `9.8D-3` | a power of ten |
-| `1,234.5`, `1 234,5`, `1'234.5`, `1.234,5` | thousands; where every comma may be decimal or part thousands, the file is refused |
+| `1,234.5`, `1 234,5`, `1'234.5`, `1.234,5` | thousands; commas that may be decimal as well are refused |
 | `<0.1` | a limit: missing |
 | `OVER`, `saturated`, `no data`, `bad`, `####` | missing |
 
-Zeniths of an arm that counts 0 to 360 are brought to -90 to 90. Rows may stand in brackets (`[10, -75, 0.1],`), have their
-names in the cells (`theta_i=10 theta_r=-75 brdf=0.1`), or be columns, each number behind its name in one line. Row numbers
-that have no name, and statistics or words below the rows, are left out.
+Zeniths of an arm that counts 0 to 360 are brought to -90 to 90. Rows may stand in brackets (`[10, -75, 0.1],`), have
+their names in the cells (`theta_i=10 theta_r=-75 brdf=0.1`), or be columns, each number behind its name in one line.
+Row numbers that have no name, and statistics or words below the rows, are left out.
 """
 ANGLES = (  # columns, and what they mean
     (
@@ -267,9 +267,11 @@ def _formats() -> str:
         rows.append((f"`{name}`", first, suffixes, _written_by(name)))
     text = (
         "What a file contains decides, not its suffix. Any of them may be compressed (gzip, bzip2, xz, of several "
-        "members), be the only file of a ZIP, or come from standard input. `convert FILE OUT --to NAME` writes measured values, `export SURFACE "
-        "--to NAME -o OUT` a model as a table. Excel needs the extra `excel`, Parquet `parquet`, HDF5 `hdf5`, zarr "
-        "`zarr`. Of several sheets or tables in a file one is chosen, `--select sheet=NAME` or `--select table=2`. A file of another kind is named from its first bytes, with what to export instead.\n"
+        "members), be the only file of a ZIP, or come from standard input. `convert FILE OUT --to NAME` writes "
+        "measured values, `export SURFACE --to NAME -o OUT` a model as a table. Excel needs the extra `excel`, Parquet "
+        "`parquet`, HDF5 `hdf5`, zarr `zarr`. Of several sheets or tables in a file one is chosen, `--select "
+        "sheet=NAME` or `--select table=2`. A file of another kind is named from its first bytes, with what to export "
+        "instead.\n"
     )
     return _table("Formats", ("format", "what it is", "usual suffixes", "written by"), rows) + "\n" + text
 

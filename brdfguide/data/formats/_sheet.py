@@ -72,7 +72,7 @@ def read_sheet(
     comments.
     """
     comments, comment_lines, content = [], [], []
-    _check_lengths(source)
+    check_lengths(source)
     for number, text in enumerate(source.lines, 1):
         stripped = text.strip()
         if not stripped.isascii() and not stripped[:1].isalpha() and not stripped.startswith(COMMENTS):
@@ -119,7 +119,7 @@ def _without_rows(source: Source, line: tuple[int, str]) -> InputError:
     return source.error(f"no row of numbers found; the first line is '{line[1].strip()[:60]}'", line[0])
 
 
-def _check_lengths(source: Source) -> None:
+def check_lengths(source: Source) -> None:
     """Raises InputError for a line that is no row."""
     if len(source.text) > LONGEST_LINE and (longest := max(map(len, source.lines))) > LONGEST_LINE:
         number = next(number for number, text in enumerate(source.lines, 1) if len(text) == longest)

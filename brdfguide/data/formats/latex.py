@@ -8,6 +8,7 @@ import re
 
 from ..columns.vocabulary import word_set
 from . import _sheets
+from ._sheet import check_lengths
 from .format import Source
 
 KINDS = rb"tabular|tabularx|tabulary|longtable|xltabular|supertabular|tabu|array|tblr|longtblr"
@@ -96,6 +97,7 @@ def recognises(head: bytes) -> bool:
 
 def _tables(source: Source) -> dict[str, _sheets.Rows]:
     """The rows of every table, each at the number of its line."""
+    check_lengths(source)
     found: dict[str, _sheets.Rows] = {}
     captions: _sheets.Rows = []
     rows: _sheets.Rows | None = None if BEGINS.search(source.text) else found.setdefault("1", [])

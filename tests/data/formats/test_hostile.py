@@ -256,3 +256,28 @@ def test_a_hundred_thousand_members_are_read_in_a_few_seconds(tmp_path):
 
 def codes(measurement):
     return {finding.code for finding in measurement.findings}
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ("1," * 1_200_000, "line 1: found a line of 2400000 letters; wanted rows of at most 2097152"),
+        ("theta_i,theta_r,brdf\n" + "1±" * 1_200_000, "line 2: found a line of 2400000 letters"),
+        ("\\begin{tabular}{l}" + "1&2\\\\" * 450_000, "line 1: found a line of 2250018 letters"),
+        ("\\begin{tabular}{l}\n" + "1&2\n" * 5000, "line 2501: found a row of more than 10000 letters"),
+        ("\\begin{tabular}\n" * 5000, "its tables have more than 1000000 cells"),
+        ("<table>" + "<tr><td rowspan=1000 colspan=1000>1" * 3000, "its tables have more than 1000000 cells"),
+        ("<table>" + "<td colspan=1000>1" * 3000, "its tables have more than 1000000 cells"),
+        ("<table>" + "<" * 100_000, "none of its tables"),
+        ("theta_i,theta_r,brdf\n" + "a\n" * 30_000, "no row of numbers found"),
+    ],
+)
+def test_what_stands_for_more_than_it_is_has_an_end(tmp_path, content, sentence):
+    path = tmp_path / "scan.csv"
+    path.write_text(content)
+
+    def refused():
+        with pytest.raises(InputError, match=sentence):
+            formats.read(path)
+
+    assert takes_less_than(5.0, refused)
