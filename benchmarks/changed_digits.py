@@ -2,9 +2,10 @@
 
     python benchmarks/changed_digits.py [--honest 100] [--changed 1000] [--seed 26]
 
-An honest answer is a fit to a made surface with noise. A changed one has one digit of one number replaced by another:
-any digit of any number for the digest; for the derivation alone, as if the digest had been renewed, one of the first
-eight digits of a parameter or of a number that follows from them.
+An honest answer is a fit to a made surface with noise, of three laws and a shader, with what another shader can do and
+files of the recommended law for three programs beside it. A changed one has one digit of one number replaced by
+another: any digit of any number for the digest; for the derivation alone, as if the digest had been renewed, one of the
+first eight digits of a parameter or of a number that follows from them.
 """
 
 import argparse
@@ -13,8 +14,10 @@ import os
 import random
 import re
 import sys
+from contextlib import suppress
 from copy import deepcopy
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import process_time
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -22,15 +25,21 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 import numpy as np
 
-from brdfguide import models
+from brdfguide import exporters, models
 from brdfguide.audit import verification
+from brdfguide.errors import NoAnswer
+from brdfguide.face.beyond import fitted_as
 from brdfguide.face.functions import fit
 from brdfguide.fitting.layout import Layout
-from brdfguide.report.documents.digest import digest_holds
+from brdfguide.report.documents.digest import digest_holds, with_digest
+from brdfguide.report.documents.plain import plain
 from tests import synthetic
 
 MODELS = ("lambertian+ggx", "lambertian+ward", "lambertian+beckmann", "lambertian+student-t", "lambertian+he-torrance")
+SHADERS = ("gltf", "openpbr", "standard-surface", "disney")
+TARGETS = ("glsl", "gltf", "gltf-pbr", "openpbr", "standard-surface", "mitsuba", "pbrt", "materialx", "usd", "radiance")
 FIRST = 8  # digits
+FEWER = 4  # of a shader's standard error: its slopes are differences
 
 
 def main() -> None:
@@ -64,8 +73,22 @@ def answer(rng):
     values = synthetic.random_values(Layout(model, 1), rng)
     data = synthetic.surface(model, geom, values, noise=0.03, seed=int(rng.integers(2**31)))
     picked = [MODELS[place] for place in rng.permutation(len(MODELS))[:3]]
-    found = fit(data, picked, timing=False, anyway=True)
-    return found.measurement, json.loads(json.dumps(found.document))
+    found = fit(data, [*picked, str(rng.choice(SHADERS))], timing=False, anyway=True)
+    shown, _ = fitted_as(str(rng.choice(SHADERS)), found.ranking, found.measurement, None)
+    more = {"as": shown, "exports": _files(found, rng.permutation(TARGETS)[:3])}
+    return found.measurement, json.loads(json.dumps(with_digest(found.document | more)))
+
+
+def _files(found, targets) -> list[dict]:
+    """What an answer says of files that were written beside it."""
+    surface, data, told = exporters.coloured(found.ranking.recommended.fit.surface), found.measurement, []
+    with TemporaryDirectory() as folder:
+        for target in targets:
+            with suppress(NoAnswer):  # of a mirror that it has no place for
+                told.append(
+                    exporters.export_to(f"{target}:{folder}/{target}", surface, data.geom, measured=data.brdf)[1]
+                )
+    return plain(told)
 
 
 def _numbers(document, path=()):
@@ -109,14 +132,21 @@ def _sealed(measurement, document, rng) -> bool:
     return digest_holds(changed) is False
 
 
+def _is_parameter(document, path) -> bool:
+    """Whether it is a parameter on which a row depends: what a shader holds of layers that are not there is none."""
+    if path[0] != "ranking" or path[2] != "parameters" or path[4] != "value":
+        return False
+    return document["ranking"][path[1]]["parameters"][path[3]]["fitted"] or not path[3].startswith(SHADERS)
+
+
 def _derived(measurement, document, before, rng) -> bool:
     known = {each.place for each in before.derived}
     changed = None
     while changed is None:
         path = rng.choice(list(_numbers(document)))
-        parameter = len(path) > 4 and path[2] == "parameters" and path[4] == "value"
-        if parameter or _written(path) in known:
-            changed = _changed(document, path, rng, FIRST)
+        if _is_parameter(document, path) or _written(path) in known:
+            by_differences = "stderr" in path and path[3].startswith(SHADERS)
+            changed = _changed(document, path, rng, FEWER if by_differences else FIRST)
     found = verification.verify(changed, verification.readings_of(measurement, changed))
     if not found.wrong:
         print("not found:", path)

@@ -111,7 +111,7 @@ def _axis(surface: ExactSurface) -> mpf | None:
         "ratio": lambda: values["ratio"] < 1,
     }
     known = [narrow() for name, narrow in along.items() if name in values]
-    return radians(values["axis"]) + (pi / 2 if known[0] else 0) if known else None
+    return radians(values["axis"]) + known[0] * pi / 2 if known else None
 
 
 def _all(written: Mapping) -> list:

@@ -17,6 +17,7 @@ from statistics import median
 from mpmath import asinh, cbrt, exp, fdot, fsum, matrix, mpf, sqrt
 
 from ..records import dataclass
+from . import textbook_shaders
 from .exact_errors import LARGEST, SMALLEST, Readings
 from .exact_neighbours import alike_neighbours, orders_of_neighbours, ways_to_cut, with_values
 from .exact_scan_gains import GainsUndecided, scans_of_turns, variances_by_gains
@@ -31,7 +32,8 @@ LEAST_ERROR, MOST_ERROR = 1e-12, 1e6  # relative, of a stated standard error
 LEAST_DOUBT = 1e-12  # [1/sr]
 SUREST = 1e-12  # of the mean variance
 DOUBLE = 1e-14  # what a double loses in each step of an inverse, times its condition
-STEEP, UNDER_A_COAT = 1e-8, 3e-5  # relative, of slopes formed in doubles; a coat's mean reflectance is interpolated
+STEEP = 1e-8  # relative, of slopes formed in doubles
+BY_DIFFERENCES = 3e-5  # of shaders, whose slopes are differences, and of coats, whose mean reflectance is interpolated
 SLOPE = 1e-11  # the same of a slope, over what a change of the number by its own size does to a residual
 OWN = 10  # times as much of its own standard error as of the others'
 LEAST_TOLD = 1e-4  # relative, of a standard error that can be compared at all
@@ -59,7 +61,8 @@ def compare_stderrs(row: FittedRow, place: str, data: Readings, found: Compariso
         errors = _Equations(row, _Part(*with_values(data, row.residuals), row.metric)).stderrs()
     except GainsUndecided:
         return
-    close = UNDER_A_COAT if any(each.coated for each in row.surface.parts) else STEEP
+    rough = any(each.coated or each.law in textbook_shaders.LAWS for each in row.surface.parts)
+    close = BY_DIFFERENCES if rough else STEEP
     for key, channel, right, lost in errors:
         told = row.parameters[key]["stderr"]
         if lost > LEAST_TOLD or told is None:

@@ -38,7 +38,8 @@ def laws_of_target(target: str, written: Mapping, axis) -> list[OfTarget]:
     along no known `axis` [rad]."""
     if target in SHADERS:
         law = SHADERS[target][0]
-        return [partial(_by_colour, law, written)] if written.keys() == signature(law).parameters.keys() - {"p"} else []
+        is_its_own = written.keys() == signature(law).parameters.keys() - {"p"}
+        return [partial(_by_colour, law, written)] * is_its_own
     own, width, forms = FORMS.get(target, ({}, "", ()))
     if written.keys() == {"albedo"}:
         return [partial(_by_colour, _body, written)] if "albedo" in own else []
@@ -64,10 +65,14 @@ def _by_colour(law, written: Mapping, pair) -> list:
 
 
 def _of_colour(written: Mapping, colour: int) -> dict:
-    of_key = {
-        key: each[colour if len(each) > 1 else 0] if isinstance(each, list) else each for key, each in written.items()
-    }
-    return {key: mpf(each) for key, each in of_key.items()}
+    return {key: mpf(_one_of(value, colour)) for key, value in written.items()}
+
+
+def _one_of(value, colour: int):
+    """A number, or that of a colour where there are several."""
+    if not isinstance(value, list):
+        return value
+    return value[colour if len(value) > 1 else 0]
 
 
 def _body(pair, albedo):

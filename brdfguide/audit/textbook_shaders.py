@@ -43,7 +43,7 @@ def at_normal(n):
     return ((n - 1) / (n + 1)) ** 2
 
 
-def with_edge(c, base, edge):
+def edged(c, base, edge):
     """F82: Schlick's curve, bent to `edge` times its height at 82 degrees."""
     there = mpf(1) / 7
     full = rises_to(there, base)
@@ -169,7 +169,7 @@ def openpbr(
         body = specular_color * f * again(p, alpha, f) * shape + (1 - kept) * base_color / pi
         base += (1 - base_metalness) * body
     if base_metalness:
-        f = with_edge(p.cos_d, base_color, specular_color)
+        f = edged(p.cos_d, base_color, specular_color)
         base += base_metalness * specular_weight * f * again(p, alpha, f) * shape
     if not coat_weight:
         return base
@@ -189,7 +189,7 @@ def openpbr_mirror(
     coat = coat_weight * unpolarised(p.cos_i, coat_ior)
     index = _against_its_coat(specular_ior, specular_weight, coat_ior, coat_weight)
     bare = specular_color * unpolarised(p.cos_i, index)
-    base = blended(bare, specular_weight * with_edge(p.cos_i, base_color, specular_color), base_metalness)
+    base = blended(bare, specular_weight * edged(p.cos_i, base_color, specular_color), base_metalness)
     base *= _under_the_coat(
         base_color, base_metalness, specular_weight, coat_weight, coat_color, coat_ior, coat_darkening
     )

@@ -40,6 +40,6 @@ def _left(result: dict) -> str:
     if result["not_derived"]:
         lines.append(
             f"{result['not_derived']} other numbers do not follow from the answer (how probable laws are, free factors "
-            f"beside them, metal or not, what it took to find them): only the digest holds them"
+            f"beside them, terms that they lack, what it took to find them): only the digest holds them"
         )
     return "\n".join(lines)
