@@ -13,16 +13,18 @@ from .exact_errors import Readings
 from .exact_followers import RowOfAnswer
 from .exact_judged import Judged, colours_of, judged
 from .exact_surface import ANGLES, ExactSurface, NoLaw, TooNarrow, surface_of
+from .exact_tables import ExactTable, table_of_target
 from .exact_targets import SHADERS, laws_of_target, mirror_of_target
 from .rederived import Comparisons
 
+IN_TABLE = 1e-8  # relative, of what is between nodes that lie close
 ROUNDED = 1e-12  # rms ln that is left of a law that is the surface's own
 
 
 def compare_exports(answer: dict, best: RowOfAnswer | None, data: Readings, found: Comparisons) -> int:
     """Of every file of which the law is written down a second time. Gives how many of their numbers were only used."""
     used, colours = 0, colours_of(answer["data"]["channels"])
-    known: dict[str, Judged | None] = {}
+    known, tables = dict[str, Judged | None](), _Tables()
     for number, told in enumerate(answer.get("exports") or ()):
         place, written = f"exports[{number}]", told.get("written")
         surface = _exported(answer, told, best)
@@ -40,12 +42,38 @@ def compare_exports(answer: dict, best: RowOfAnswer | None, data: Readings, foun
         if by is None:
             continue
         loose = found.loosened(surface.slack)
+        table = None if exact else tables.of(told, by)
         if exact:
             loose.check(f"{place}.directions", told["directions"], by.directions)
             loose.check(f"{place}.measured_rms_ln", told["measured_rms_ln"], by.off_the_data(by.itself, by.mirror))
+        elif table is not None:
+            used += _compare_table(told, table, place, loose)
         else:
             used += _compare_refit(told, by, place, loose)
     return used
+
+
+class _Tables:
+    """Tables of one answer; those with the same nodes are evaluated once."""
+
+    def __init__(self) -> None:
+        self.known: dict[tuple, ExactTable] = {}
+
+    def of(self, told: dict, by: Judged) -> ExactTable | None:
+        table = table_of_target(told["target"], told["written"], by)
+        if table is None:
+            return None
+        return self.known.setdefault((told["model"], table.about_mirror, *map(len, table.nodes)), table)
+
+
+def _compare_table(told: dict, table: ExactTable, place: str, found: Comparisons) -> int:
+    """Its sizes, and how far off it is."""
+    for key, nodes in zip(("azimuths", "polars"), table.nodes[1:], strict=True):
+        found.check(f"{place}.written.{key}", told["written"].get(key), len(nodes))
+    found.check(f"{place}.rms_ln", told["rms_ln"], table.by.error(table), IN_TABLE, ROUNDED)
+    found.check(f"{place}.directions", told["directions"], table.by.directions)
+    found.check(f"{place}.measured_rms_ln", told["measured_rms_ln"], table.by.off_the_data(table), IN_TABLE)
+    return 1
 
 
 def _exported(answer: dict, told: dict, best: RowOfAnswer | None) -> ExactSurface | None:

@@ -13,9 +13,11 @@ f is the median of the channels that have a value. Angles from the mirror direct
 
 from collections import defaultdict
 from functools import cached_property
+from math import asin, degrees
+from math import sqrt as root
 from statistics import median
 
-from mpmath import acos, cos, degrees, exp, fsum, log, mpf, pi, radians, sin
+from mpmath import cos, exp, fsum, log, mpf, pi, radians, sin
 
 from .exact_errors import LARGEST, Readings
 from .exact_followers import MOST_HELD
@@ -57,9 +59,7 @@ class _Looked:
             for row, up in zip(data.values, data.lit, strict=True)
         ]
         self.grey = [_median([v for v in row if v is not None]) for row in self.values]
-        self.from_mirror = [
-            round(float(degrees(acos(min(sight.pair.cos_m, mpf(1))))), DECIMALS) for sight in data.sights
-        ]
+        self.from_mirror = [round(_degrees_from_mirror(sight.pair.cos_m), DECIMALS) for sight in data.sights]
         self.theta_r = [each[2] for each in data.angles]
         self.rows: dict[float, list[int]] = defaultdict(list)
         tenths = [round(10 * each[0]) / 10 for each in data.angles]
@@ -155,8 +155,13 @@ class _Looked:
         return [_median([v for v in column if v is not None]) for column in columns]
 
 
+def _degrees_from_mirror(cosine) -> float:
+    """To the digits of a double, also where the cosine is near 1."""
+    return degrees(2 * asin(root(max(float(1 - cosine), 0.0) / 2)))
+
+
 def _median(values: list):
-    return median(map(mpf, values)) if values else None
+    return mpf(median(values)) if values else None
 
 
 def _span(channels: list):

@@ -43,14 +43,14 @@ CODE = (
     ),
     *("exact_noise", "exact_exchange", "exact_two_parts", "exact_stray_light"),
     *("textbook_shaders", "exact_exports", "exact_judged", "exact_targets"),
-    *("exact_kind", "exact_as_shader", "exact_neighbours", "exact_scan_gains"),
+    *("exact_kind", "exact_as_shader", "exact_neighbours", "exact_scan_gains", "exact_tables"),
 )
 SHARED = {
     *(".", ".textbook", ".exact_surface", ".exact_errors", ".exact_intervals", ".exact_held_out", ".rederived"),
     *(".answer_shape", ".exact_instrument", ".exact_noise", ".exact_exchange", ".exact_two_parts", ".exact_floor"),
     *(".exact_stray_light", ".exact_ring", ".exact_scattered", ".exact_exports", ".exact_followers"),
     *(".exact_judged", ".exact_targets", ".textbook_grain", ".textbook_more"),
-    *(".exact_kind", ".exact_as_shader", ".exact_neighbours", ".exact_scan_gains"),
+    *(".exact_kind", ".exact_as_shader", ".exact_neighbours", ".exact_scan_gains", ".exact_tables"),
     *("..errors", "..records", "..data.measurement"),
 }
 

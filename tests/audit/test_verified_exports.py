@@ -24,7 +24,7 @@ def exported(tmp_path_factory):
     surface = exporters.coloured(found.ranking.recommended.fit.surface)
     told = [
         exporters.export_to(f"{target}:{folder / target}", surface, data.geom, measured=data.brdf)[1]
-        for target in ("glsl", "osl", "csv")
+        for target in ("glsl", "osl", "merl")
     ]
     document = json.loads(json.dumps(found.document | {"exports": plain(told)}))
     return verification.readings_of(found.measurement, document), document
