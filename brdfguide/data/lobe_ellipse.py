@@ -27,6 +27,11 @@ FEWEST = 8  # values of an incidence
 FEWEST_OF_SCAN = 5  # values of the peak of one scan
 PLANE_DEG = 1.0  # within which a value lies in the plane of incidence
 MOST_INCIDENCES = 24  # of scattered directions, which stand for hundreds
+SCATTERED_DEG = 10.0  # of incidence, over which directions are taken together that lie in no scan of one
+# ratio of widths and standard errors of its logarithm from which one azimuth of the light shows a grain: masking and
+# one-sided scans shape a lobe as well (ours)
+SEEN_UNTURNED, SURE_UNTURNED = 2.0, 5.0
+FEWEST_UNTURNED = 3  # incidences
 LEAST_AXES = 0.02  # of the trace of the design, its least part where the ellipse is determined
 
 
@@ -55,9 +60,10 @@ def lobe_ellipse(measurement: Measurement) -> Ellipse | None:
     """
     two = two_azimuths(measurement)
     theta_i = measurement.geom.theta_i_deg[:, 0]
-    groups = [
-        rows for rows in measurement.theta_i_groups.values() if len(rows) >= FEWEST and theta_i[rows[0]] <= STEEPEST_DEG
-    ]
+    each_angle = measurement.theta_i_groups.values()
+    groups = [rows for rows in each_angle if len(rows) >= FEWEST and theta_i[rows[0]] <= STEEPEST_DEG]
+    if 2 * sum(map(len, groups)) < np.count_nonzero(theta_i <= STEEPEST_DEG):
+        groups = _scattered(theta_i)
     picked = np.unique(np.linspace(0, len(groups) - 1, min(len(groups), MOST_INCIDENCES)).round().astype(int))
     each_of = (_of_incidence(measurement, groups[place], two) for place in picked)
     found = [each for each in each_of if each is not None]
@@ -76,6 +82,23 @@ def lobe_ellipse(measurement: Measurement) -> Ellipse | None:
         return float(np.std(values, ddof=1) / np.sqrt(len(values))) if len(values) > 1 else float("inf")
 
     return Ellipse(alpha_x, alpha_y, axis, error(ln_ratios), error(turns), len(each), two is None)
+
+
+def looks_grained(measurement: Measurement) -> bool:
+    """Whether one azimuth of the light already shows a lobe that is not round."""
+    if measurement.in_plane or turn_of_each(measurement.geom) is not None:
+        return False
+    ellipse = lobe_ellipse(measurement)
+    if ellipse is None or ellipse.incidences < FEWEST_UNTURNED:
+        return False
+    return np.log(ellipse.ratio) > max(np.log(SEEN_UNTURNED), SURE_UNTURNED * ellipse.ln_ratio_stderr)
+
+
+def _scattered(theta_i) -> list[np.ndarray]:
+    """Rows of like incidence [deg], where most directions have one of their own."""
+    belts = np.floor(theta_i / SCATTERED_DEG)
+    found = (np.flatnonzero(belts == each) for each in range(int(STEEPEST_DEG / SCATTERED_DEG)))
+    return [rows for rows in found if len(rows) >= FEWEST]
 
 
 @formed

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..formed import formed
 from ..records import dataclass
-from . import turning
+from . import lobe_ellipse, turning
 from .measurement import Measurement, row_median
 
 NEAR_DEG = 3.0  # how far apart a direction and the exchanged one may lie
@@ -188,7 +188,7 @@ def _slope(ln_cosine_ratio, ratio):
 def _turns(measurement: Measurement) -> bool:
     """Whether the sample has a grain, so that its exchange has the light where the detector stood on the sample."""
     spread = turning.spread_over_turns(measurement)
-    return spread is not None and spread > GRAIN
+    return lobe_ellipse.looks_grained(measurement) if spread is None else spread > GRAIN
 
 
 def _places(geom, turns: bool = False) -> np.ndarray:

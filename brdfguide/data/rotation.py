@@ -3,16 +3,13 @@
 import numpy as np
 
 from ..finding import Finding
-from .lobe_ellipse import Ellipse, lobe_ellipse
+from .lobe_ellipse import Ellipse, lobe_ellipse, looks_grained
 from .measurement import Measurement, row_median
 from .noise import noise
 from .turning import FEWEST, spread_over_turns, turn_of_each
 
 SEEN_RATIO = 1.1  # of widths, below which a mounting explains it
 SURE = 3.0  # standard errors of its logarithm
-# the same for one azimuth of the light, where masking and one-sided scans shape a lobe as well (ours)
-SEEN_UNTURNED, SURE_UNTURNED = 2.0, 5.0
-FEWEST_UNTURNED = 3  # incidences
 ONE_WAY = 0.2  # rms of ln between values half a turn apart, beyond which facets lean to one side (ours)
 APART_DEG = 22.5  # within a quarter of a turn, of two pairs of turns: one grain half way between one pair is as a weave
 LIKE = 0.3  # of the change over a quarter of a turn to that over an eighth, below which a period is a quarter (ours)
@@ -79,16 +76,6 @@ def turned_grain(m: Measurement) -> bool:
     """Whether turning the sample shows a grain, however little of the light its lobe is."""
     ellipse = lobe_ellipse(m) if turn_of_each(m.geom) is not None else None
     return ellipse is not None and is_grained(ellipse)
-
-
-def looks_grained(m: Measurement) -> bool:
-    """Whether one azimuth of the light already shows a lobe that is not round."""
-    if m.in_plane or turn_of_each(m.geom) is not None:
-        return False
-    ellipse = lobe_ellipse(m)
-    if ellipse is None or ellipse.incidences < FEWEST_UNTURNED:
-        return False
-    return np.log(ellipse.ratio) > max(np.log(SEEN_UNTURNED), SURE_UNTURNED * ellipse.ln_ratio_stderr)
 
 
 def _finite(error: float) -> float:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..data import examine, formats, height_against_width, joined, lobe_ellipse, metal_or_dielectric, rotation
+from ..data import examine, formats, height_against_width, joined, lobe_ellipse, metal_or_dielectric
 from ..data.blocks import Blocks
 from ..data.measurement import Measurement
 from ..data.metal_or_dielectric import Verdict
@@ -87,7 +87,7 @@ def _grain(measurement: Measurement) -> candidates.Grained | None:
     if two:
         ellipse = lobe_ellipse.lobe_ellipse(measurement)
         return candidates.Grained(ellipse.axis if ellipse else two[0])
-    if turn_of_each(measurement.geom) is not None or rotation.looks_grained(measurement):
+    if turn_of_each(measurement.geom) is not None or lobe_ellipse.looks_grained(measurement):
         return candidates.Grained()
     if height_against_width.is_too_high(measurement):
         return candidates.Grained(axis=0.0, one_scan=True)

@@ -56,10 +56,7 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
     )
     best = residuals[order[0]]
     along = standard_errors.along_scans(compared)
-    worth = smoothness.estimated_noise(measurement)
-    noise = noise_of(best[along]) if worth.relative is None else worth.expected(compared.brdf, compared.clear)
-    if errors[order[0]]["ln"] < SHARPER * noise:  # a lobe bends between neighbours that lie far apart
-        noise = errors[order[0]]["ln"]
+    noise = _scatter(measurement, compared, best[along], errors[order[0]]["ln"])
     stated = stated_noise(compared)
     common = stated if stated > IN_COMMON * noise else 0.0
     noise = max(noise, stated)
@@ -95,6 +92,14 @@ def rank(fits: Sequence[Fit], measurement: Measurement, options: FitOptions = Fi
         close=options.close,
     )
     return recommending(ranked, measurement)
+
+
+def _scatter(measurement: Measurement, compared: Measurement, along, least: float) -> float:
+    """By how much single values scatter: about their neighbours, or about the best law (residuals `along` the scans,
+    rms `least`) where that is much less, since a lobe bends between neighbours that lie far apart."""
+    worth = smoothness.estimated_noise(measurement)
+    found = noise_of(along) if worth.relative is None else worth.expected(compared.brdf, compared.clear)
+    return least if least < SHARPER * found else found
 
 
 def _digits(error: float) -> float:

@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import MaxNLocator
 
-from ...data.lobe_ellipse import STEEPEST_DEG, Ellipse, lobe_ellipse, widths_of_turns
+from ...data.lobe_ellipse import STEEPEST_DEG, Ellipse, lobe_ellipse, looks_grained, widths_of_turns
 from ...data.measurement import Measurement
-from ...data.rotation import is_grained, looks_grained
+from ...data.rotation import is_grained
 from ...data.turning import turn_of_each
 from ...fitting.reading import reading
 from ...models.surface import Surface
