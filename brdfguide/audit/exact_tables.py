@@ -2,7 +2,8 @@
 interpolates them linearly in incidence, azimuth and polar angle.
 
 Counted from the mirror direction the polar angles begin at a part of the lobe's half width and grow by a factor, up to
-steps of five degrees; counted from the normal they are even. How many incidences there are says which of the levels a
+steps of five degrees; counted from the normal they are even, and so grow the azimuths from that of the mirror
+direction. How many incidences there are says which of the levels a
 table has.
 """
 
@@ -21,8 +22,9 @@ ABOUT_NORMAL = {"lighttools", "speos", "speos-anisotropic"}
 # steps of incidence and azimuth [deg], then first step as a part of the half width and growth, or the polar step [deg]
 LEVELS = {
     True: ((10.0, 15.0, 0.25, 1.25), (5.0, 10.0, 0.12, 1.12), (2.5, 6.0, 0.06, 1.06), (1.25, 4.0, 0.05, 1.05)),
-    False: ((10.0, 10.0, 5.0), (5.0, 5.0, 2.5), (2.5, 4.0, 1.5)),
+    False: ((10.0, 10.0, 5.0), (5.0, 6.0, 2.5), (2.5, 5.0, 1.5), (1.25, 4.0, 1.0)),
 }
+BESIDE_MIRROR, GROWTH, LEAST_AZIMUTH_DEG = 0.12, 1.2, 0.1  # about the normal: of azimuths, from the mirror's away
 STEEPEST_DEG, WIDEST_DEG, FINEST_DEG = 89.5, 5.0, 0.02
 WIDTH_AT_DEG, MOST_WIDTH_DEG, LEAST_STEP_DEG, STEPS = 30.0, 16.0, 1e-3, 60  # where and how a half width is looked for
 NO_MIRROR = mpf("1e-6")  # of the light
@@ -90,16 +92,25 @@ def table_of_target(target: str, written: Mapping, by: Judged) -> ExactTable | N
     for level in LEVELS[about_mirror]:
         incidences = sorted({*_even(86.0, level[0]), 85.0 if level[0] > 5 else STEEPEST_DEG - 1})
         if len(incidences) == written.get("theta_i"):
-            polar = [*_even(89.0, level[2]), STEEPEST_DEG]
+            width = _half_width(by)
             if about_mirror:
-                polar = _about_mirror(_half_width(by), *level[2:])
-            return ExactTable(by, about_mirror, (incidences, _even(180.0 + level[1] / 2, level[1]), polar))
+                azimuths, polar = _even(180.0 + level[1] / 2, level[1]), _about_mirror(width, *level[2:])
+            else:
+                azimuths, polar = _beside_mirror(width, level[1]), [*_even(89.0, level[2]), STEEPEST_DEG]
+            return ExactTable(by, about_mirror, (incidences, azimuths, polar))
     return None
 
 
 def _even(end: float, step: float) -> list[float]:
     count = -int(-end // step)
     return [number * step for number in range(count)]
+
+
+def _beside_mirror(width: float, widest: float) -> list[float]:
+    away = [0.0, min(max(BESIDE_MIRROR * width, LEAST_AZIMUTH_DEG), widest)]
+    while away[-1] < 180:
+        away.append(away[-1] + min((away[-1] - away[-2]) * GROWTH, widest))
+    return [0.0, *(round(1000 * (180 - each)) / 1000 for each in reversed(away[:-1]))]
 
 
 def _about_mirror(width: float, part: float, growth: float) -> list[float]:
