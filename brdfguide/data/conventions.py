@@ -19,6 +19,7 @@ UNDONE = {
     "reflectance-factor": "divided by pi",
     "dark-level": "taken out",
 }
+ENOUGH = 1000  # values that tell how many digits all have
 RESOLVED = 4  # values of a lobe that a floor cuts
 BELOW_NOISE = 10.0  # times the largest value: what lies so far below zero is no noise about it
 NO_BRDF = 1e20  # 1/sr; what files have in place of a value reaches from 1e20 to 1e37
@@ -145,7 +146,7 @@ def _floor(brdf) -> float | None:
         if count < 4 or count == positive.size:
             return None
         rest = positive[positive > low]
-        digits = _digits(rest)
+        digits = _digits(rest[:: 1 + len(rest) // ENOUGH])
         step = 10 ** (np.floor(np.log10(low)) + 1 - digits)
         just = max(0.002, 1.5 * float(step) / low)
         near = np.count_nonzero(rest <= (1 + just) * low)

@@ -10,8 +10,7 @@ LOOKED_AT = 40
 LEAST = 3  # lines that say so
 BRACKETED = re.compile(r"[\[({]{1,3}([^\[\](){}]{3,})[\])}]{1,3}\s{0,9}[,;]?")
 ONLY_BRACKETS = re.compile(r"(?:[A-Za-z_]\w{0,60}\s{0,9}=\s{0,9})?[\[({]{1,3}|[\])}]{1,3}[;,]?")
-VALUE = r"\s{0,3}[=:]\s{0,3}([-+]?[\d.][^\s,;]{0,40})"
-NAMED = re.compile(r"([A-Za-z][\w.]{0,40})" + VALUE)
+NAMED = re.compile(r"([A-Za-z][\w.]{0,40})\s{0,3}[=:]\s{0,3}([-+]?[\d.][^\s,;]{0,40})")
 MOST_NAMES = 200  # rows that are columns, or columns
 
 
@@ -53,14 +52,13 @@ def _without_names(content: Lines) -> Lines:
     names = [name for name, _ in NAMED.findall(content[0][1].strip())]
     if not LEAST <= len(names) <= MOST_NAMES:
         return content
-    line = re.compile(r"[\s,;]{1,9}".join(rf"{re.escape(name)}{VALUE}" for name in names) + r"\s{0,9}[,;]?")
-    rows = [(number, line.fullmatch(text.strip())) for number, text in content]
-    if not all(match for _, match in rows):
-        return content
-    return [
-        (content[0][0], "\t".join(names)),
-        *((number, "\t".join(match.groups())) for number, match in rows if match),
-    ]
+    rows: Lines = []
+    for number, text in content:
+        cells = NAMED.findall(text)
+        if [name for name, _ in cells] != names or NAMED.sub("", text).strip(" \t,;"):
+            return content
+        rows.append((number, "\t".join(cell for _, cell in cells)))
+    return [(content[0][0], "\t".join(names)), *rows]
 
 
 def _turned(content: Lines) -> Lines:
