@@ -8,6 +8,7 @@ import numpy as np
 from ..data.metal_or_dielectric import LEAST_METAL, LOW_DEG, MOST_DIELECTRIC
 from ..flags import Effect
 from ..models import Composite, Model
+from ..models.model import Term
 from ..physics import fresnel
 from ..records import dataclass
 from .ranked import BETTER, Row
@@ -131,16 +132,11 @@ def lobe_too_bright(model: Composite, values: Mapping, theta_i_deg: float) -> Lo
     theta = theta_i_deg if theta_i_deg > LOW_DEG else 0.0
     cos = np.cos(np.radians(theta))
     for term in model.terms:
-        if _has_height(term.model) and not np.any(values[term.key("k")]):
-            level = level + values[term.key(term.model.amplitude or "")] * fresnel.fresnel(cos, values[term.key("n")])
+        if term.model.has_index and not term.model.base and not np.any(values[term.key("k")]):
+            level = level + _height(term, values) * fresnel.fresnel(cos, values[term.key("n")])
     found = float(np.median(level))
     most, least = (float(fresnel.fresnel(cos, *each)) for each in (_BRIGHTEST, _DARKEST))
     return Lobe(theta, found, most) if found**2 > most * least else None
-
-
-def _has_height(law: Model) -> bool:
-    """Whether it is a lobe with an index and a height of its own, as a mirror and what lies under a coat have not."""
-    return law.is_lobe and law.has_index and not law.base
 
 
 def _is_determined(row: Row) -> bool:
@@ -154,10 +150,14 @@ def _keeps_energy(row: Row) -> bool:
     x F0, median over the channels."""
     values, level = {**row.fit.model.defaults(), **row.fit.values}, np.zeros(1)
     for term in row.fit.model.terms:
-        if _has_height(term.model):
-            n, k, height = (values[term.key(name)] for name in ("n", "k", term.model.amplitude or ""))
-            level = level + height * fresnel.f0(n, k)
+        if term.model.has_index and not term.model.base:
+            level = level + _height(term, values) * fresnel.f0(values[term.key("n")], values[term.key("k")])
     return float(np.median(level)) < MOST_RETURNED
+
+
+def _height(term: Term, values: Mapping) -> np.ndarray | float:
+    """Of a lobe beside Fresnel's factor; 1 of a mirror, which has none."""
+    return values[term.key(term.model.amplitude)] if term.model.amplitude else 1.0
 
 
 def _inside(row: Row) -> bool:

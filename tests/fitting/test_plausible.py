@@ -156,6 +156,12 @@ def test_a_lobe_that_returns_more_light_than_it_gets_loses_to_one_that_does_not(
     assert picked((off_scale, grained))[0] is off_scale
 
 
+def test_a_mirror_has_no_height_and_returns_what_fresnel_says():
+    mirror = row("lambertian+mirror", 0.1, 2, values={"mirror.n": 7.0, "mirror.k": 0.0})
+    assert too_bright_for_a_dielectric(mirror).level == pytest.approx(0.5625)
+    assert picked((mirror, row("lambertian+ggx", 0.101, 3)), kind="dielectric")[0] is mirror
+
+
 def test_a_parameter_at_its_bound_loses_to_one_inside():
     at_bound = Finding("at-bound", "at its high bound", "warning", subject="ggx.n")
     stuck = row("lambertian+ggx", 0.101, 2)
