@@ -31,6 +31,6 @@ def test_a_changed_digit_of_them_is_found(tabulated, number, key):
     document = deepcopy(tabulated[1])
     entry = document["exports"][number]
     at = entry if key in entry else entry["written"]
-    at[key] = at[key] * (1 + 1e-6) if key.endswith("rms_ln") else at[key] + 1
+    at[key] += 1e-6 if key.endswith("rms_ln") else 1
     wrong = {each.place for each in verification.verify(document, tabulated[0]).wrong}
     assert wrong == {f"exports[{number}].{key}" if at is entry else f"exports[{number}].written.{key}"}
