@@ -125,7 +125,7 @@ def picked(
     aside += doubts
     if equal:
         near = [row for row in near if row.fit.free <= SIMPLER * min(each.fit.free for each in equal)]
-    fewest = min((row.fit.free for row in equal), default=0)
+    fewest = max(1, min((row.fit.free for row in equal), default=1))
     equal = [row for row in equal if row.fit.free < MANY * fewest]
     equal, outdone = _outdone(equal)
     near, merely_cheaper = _outdone(near)

@@ -114,7 +114,7 @@ def test_a_port_where_something_else_listens_is_a_sentence():
 def test_an_empty_address_is_not_passed_over():
     words = ["fit", "examples/white_paper.csv", "-m", "lambertian", "--scheduler", ""]
     done = subprocess.run([sys.executable, "-m", "brdfguide", *words], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 2 and "--scheduler: found nothing" in done.stderr
+    assert done.returncode == 2 and "--scheduler '': wanted something" in done.stderr
 
 
 @pytest.fixture
