@@ -7,6 +7,7 @@ Source: OASIS, Open Document Format for Office Applications 1.3, part 3, section
 
 import io
 import re
+import zlib
 
 from ...errors import InputError
 from . import _sheets
@@ -37,7 +38,7 @@ def _tables(source: Source) -> dict[str, _sheets.Rows]:
                 return _read(source, ElementTree.XMLPullParser(["start", "end"]), stream)
     except InputError:
         raise
-    except (zipfile.BadZipFile, ElementTree.ParseError, OSError, ValueError, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, ElementTree.ParseError, OSError, ValueError, EOFError) as error:
         raise source.error(f"a damaged OpenDocument sheet: {error}") from None
     except (KeyError, NotImplementedError, RuntimeError):  # no such part, or one that is locked
         text = f"an OpenDocument sheet without a {CONTENT} that can be read; save it without a password"

@@ -159,6 +159,11 @@ def ods(sheets: dict[str, str], kind: str = "spreadsheet", doctype: str = "") ->
     return stream.getvalue()
 
 
+def spoilt(packed: bytes) -> bytes:
+    """The same with some of what is compressed lost."""
+    return packed[:200] + 40 * b"\xff" + packed[240:]
+
+
 def ods_rows(rows) -> str:
     def cell(value) -> str:
         number = f' office:value-type="float" office:value="{value}"' if isinstance(value, float) else ""
@@ -185,6 +190,7 @@ def test_an_opendocument_sheet(tmp_path):
     ("content", "sentence"),
     [
         (ods({"a": SHEET})[:-200], "a damaged OpenDocument sheet: "),
+        (spoilt(ods({"a": SHEET})), "a damaged OpenDocument sheet: Error -3 while decompressing"),
         (ods({"a": SHEET + "<table:x>"}), "a damaged OpenDocument sheet: mismatched tag"),
         (ods({"a": SHEET}, doctype='<!DOCTYPE a [<!ENTITY b "c">]>'), "XML with a document type of its own"),
         (ods({"a": "<table:table-row/>" * 400_000}), "unpacks to 7 MB, more than such a sheet"),
