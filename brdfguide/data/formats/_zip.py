@@ -29,7 +29,7 @@ def one_file(raw, name: str):
         raise InputError(f"{name}: '{info.filename[:60]}' in it is locked by a password; unpack it and give the file")
     try:
         stream = archive.open(info)
-    except (NotImplementedError, RuntimeError, OSError, ValueError) as error:
+    except Exception as error:  # BadZipFile, NotImplementedError, RuntimeError: each fault has its own
         raise InputError(f"{name}: '{info.filename[:60]}' in it cannot be unpacked: {str(error)[:80]}") from None
     yield _Member(stream, name), max(info.compress_size, 1)
 

@@ -297,6 +297,9 @@ def test_a_zip_that_is_damaged_or_locked(tmp_path):
     whole[60] ^= 255
     with pytest.raises(InputError, match="its ZIP compression is damaged|cannot be unpacked"):
         read(tmp_path, "scan.zip", bytes(whole))
+    unlike = zipped({"scan.csv": PLAIN}).replace(b"scan.csv", b"scaN.csv", 1)  # the list at its end has another name
+    with pytest.raises(InputError, match="'scan.csv' in it cannot be unpacked: File name in directory"):
+        read(tmp_path, "scan.zip", unlike)
     locked = bytearray(zipped({"scan.csv": PLAIN}))
     place = locked.rfind(b"PK\x01\x02")
     locked[place + 8] |= 1
