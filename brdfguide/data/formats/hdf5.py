@@ -30,8 +30,8 @@ def _tables(source: Source) -> list[_named_arrays.ArrayTable]:
     _try_beforehand(source)
     with damage_told(source, KIND):
         content = _Content(source)
-        root = h5py.File(io.BufferedReader(content), "r")
-    return _named_arrays.tables_in(source, KIND, _Node(root, h5py), partial(_members, source, h5py), _stored)
+        root = _Node(h5py.File(io.BufferedReader(content), "r"), h5py)
+    return _named_arrays.tables_in(source, KIND, root, partial(_members, source, h5py), _stored)
 
 
 def _try_beforehand(source: Source) -> None:

@@ -139,6 +139,18 @@ def test_chunks_that_are_not_there_are_told(tmp_path, monkeypatch):
         assert note.severity == "warning" and "1 of 4 of 'R', 1 of 4 of 'G'" in note.text
 
 
+def test_a_root_of_no_known_kind_is_a_sentence(tmp_path):
+    path = tmp_path / "wall.h5"
+    with pytest.importorskip("h5py").File(path, "w") as file:
+        for name in ("theta_i", "theta_r", "brdf"):
+            file[name] = np.arange(10.0)
+    content = bytearray(path.read_bytes())
+    content[112] ^= 255  # of the first message in the root's header: its type
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="a damaged HDF5 table: .*unable to determine object type"):
+        formats.read(path)
+
+
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a system that limits processor time")
 @pytest.mark.parametrize(
     ("does", "said"),
