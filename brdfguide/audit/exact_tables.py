@@ -3,8 +3,7 @@ interpolates them linearly in incidence, azimuth and polar angle.
 
 Counted from the mirror direction the polar angles begin at a part of the lobe's half width and grow by a factor, up to
 steps of five degrees; counted from the normal they are even, and so grow the azimuths from that of the mirror
-direction. How many incidences there are says which of the levels a
-table has.
+direction. How many incidences there are says which of the levels a table has.
 """
 
 from bisect import bisect_right
@@ -107,17 +106,20 @@ def _even(end: float, step: float) -> list[float]:
 
 
 def _beside_mirror(width: float, widest: float) -> list[float]:
-    away = [0.0, min(max(BESIDE_MIRROR * width, LEAST_AZIMUTH_DEG), widest)]
-    while away[-1] < 180:
-        away.append(away[-1] + min((away[-1] - away[-2]) * GROWTH, widest))
+    away = _growing(min(max(BESIDE_MIRROR * width, LEAST_AZIMUTH_DEG), widest), GROWTH, widest, 180.0)
     return [0.0, *(round(1000 * (180 - each)) / 1000 for each in reversed(away[:-1]))]
 
 
 def _about_mirror(width: float, part: float, growth: float) -> list[float]:
-    polar = [0.0, min(max(part * width, FINEST_DEG), WIDEST_DEG)]
-    while polar[-1] < 90 + STEEPEST_DEG:
-        polar.append(polar[-1] + min((polar[-1] - polar[-2]) * growth, WIDEST_DEG))
-    return [round(each * 1000) / 1000 for each in polar]
+    first = min(max(part * width, FINEST_DEG), WIDEST_DEG)
+    return [round(each * 1000) / 1000 for each in _growing(first, growth, WIDEST_DEG, 90 + STEEPEST_DEG)]
+
+
+def _growing(first: float, growth: float, widest: float, end: float) -> list[float]:
+    nodes = [0.0, first]
+    while nodes[-1] < end:
+        nodes.append(nodes[-1] + min((nodes[-1] - nodes[-2]) * growth, widest))
+    return nodes
 
 
 def _half_width(by: Judged) -> float:

@@ -6,6 +6,7 @@ from ..finding import Finding
 from ..flags import Effect
 from ..formed import formed
 from ..physics.geometry import Directions
+from ..printable import LEAST_NOISE
 from . import dark_level
 from .measurement import Measurement, row_median, rows_by_tenth
 from .noise_model import FAINTEST, SIGMA_PER_MEDIAN, NoiseModel, two_parts
@@ -64,7 +65,7 @@ def noise_findings(measurement: Measurement):
     dim = f" and {_between_channels(worth.absolute)}/sr, {zero}" if any(worth.absolute) else ""
     level = worth.relative or 0.0
     numbers = (("relative", level), ("absolute_per_sr", float(np.median(worth.absolute))))
-    share = f"{100 * level:.2g} %" if level > 1e-4 else "less than 0.01 %"
+    share = f"{100 * level:.2g} %" if level > LEAST_NOISE else f"less than {100 * LEAST_NOISE:g} %"
     text = f"single values scatter about their neighbours by {share}{dim}"
     yield Finding("noise", text, "warning" if level > 0.15 else "note", numbers=numbers)
     lost = int(np.count_nonzero(measurement.usable & (measurement.brdf < worth.limit)))

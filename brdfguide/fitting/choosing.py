@@ -107,8 +107,8 @@ def picked(
     good = _best_first(rows, likely)
     best = good[0]
     if likely:
-        least = AS_LIKELY * likely[id(best.fit)]
-        equal = [row for row in trusted(rows) if likely[id(row.fit)] >= least]
+        as_likely = AS_LIKELY * likely[id(best.fit)]
+        equal = [row for row in trusted(rows) if likely[id(row.fit)] >= as_likely]
     else:
         equal = [row for row in good if row.tied] if best.tied else [best]
     near = [row for row in good if row.close and row not in equal and not (likely and close == "look")]
@@ -124,9 +124,9 @@ def picked(
     equal, near = ([row for row in group if row in left] for group in (equal, near))
     aside += doubts
     if equal:
-        near = [row for row in near if row.fit.free <= SIMPLER * min(each.fit.free for each in equal)]
-    fewest = max(1, min((row.fit.free for row in equal), default=1))
-    equal = [row for row in equal if row.fit.free < MANY * fewest]
+        fewest = min(row.fit.free for row in equal)
+        near = [row for row in near if row.fit.free <= SIMPLER * fewest]
+        equal = [row for row in equal if row.fit.free < MANY * max(fewest, 1)]
     equal, outdone = _outdone(equal)
     near, merely_cheaper = _outdone(near)
     pick = min(equal or near, key=lambda row: (row.fit.free, row.work))

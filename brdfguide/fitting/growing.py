@@ -254,10 +254,9 @@ def _may_be_noise(error: float, few: Measurement, data: Prepared) -> bool:
     that its size has to tell; of others that tells."""
     if not few_directions(data.whole):
         return True
-    relative = noise.estimated_noise(few)
-    stated = stated_noise(few)
-    known = relative.relative is not None or stated > 0
-    return error <= (BEYOND * max(relative.expected(few.brdf, few.clear), stated) if known else NOISY)
+    worth, stated = noise.estimated_noise(few), stated_noise(few)
+    known = worth.relative is not None or stated > 0
+    return error <= (BEYOND * max(worth.expected(few.brdf, few.clear), stated) if known else NOISY)
 
 
 def _residuals(search: Search, data: Prepared) -> tuple[Surface, np.ndarray]:

@@ -2,11 +2,11 @@
 
 Any of the laws near the best may be the right one, and none is exactly (`missed`). Nothing is fitted to the made
 surfaces that the price is judged by (benchmarks/off_plane_price.py). Each law foretells the surface outside, and so the
-error there of the recommended one;
-told is the one within 25 % of which it most probably lies, for values with the noise of those in the plane. Laws that
-tie in the plane, or may as well be right, and by which the error is another are told beside it. Toward grazing, where
-laws miss most and least evenly, it is a number of its own. Where a channel was too dark to be read in the plane, its
-directions outside that are as dark count for nothing: nobody reads them there either.
+error there of the recommended one; told is the one within 25 % of which it most probably lies, for values with the
+noise of those in the plane. Laws that tie in the plane, or may as well be right, and by which the error is another are
+told beside it. Toward grazing, where laws miss most and least evenly, it is a number of its own. Where a channel was
+too dark to be read in the plane, its directions outside that are as dark count for nothing: nobody reads them there
+either.
 """
 
 from functools import lru_cache

@@ -118,10 +118,8 @@ def at_nodes(brdf: Callable[[Geometry], np.ndarray], level: int, width: float, a
     """
     if about_mirror:
         step_i, step_a, part, growth = LEVELS[level]
-        polar = [0.0, float(np.clip(part * width, FINEST_DEG, WIDEST_DEG))]
-        while polar[-1] < 90 + STEEPEST_DEG:
-            polar.append(polar[-1] + min((polar[-1] - polar[-2]) * growth, WIDEST_DEG))
-        nodes = np.round(polar, 3)
+        first = np.clip(part * width, FINEST_DEG, WIDEST_DEG)
+        nodes = np.round(_growing(first, growth, WIDEST_DEG, 90 + STEEPEST_DEG), 3)
     else:
         step_i, step_a, step = ABOUT_NORMAL[level]
         nodes = np.append(np.arange(0.0, 89.0, step), STEEPEST_DEG)
@@ -136,10 +134,16 @@ def at_nodes(brdf: Callable[[Geometry], np.ndarray], level: int, width: float, a
 
 def _azimuths(width: float, widest: float) -> np.ndarray:
     """0..180 [deg] about the normal: a lobe of half width `width` is as narrow across as in the plane of incidence."""
-    away = [0.0, float(np.clip(NEAR * width, NEAREST_DEG, widest))]
-    while away[-1] < 180:
-        away.append(away[-1] + min((away[-1] - away[-2]) * NEAR_GROWTH, widest))
+    away = _growing(np.clip(NEAR * width, NEAREST_DEG, widest), NEAR_GROWTH, widest, 180.0)
     return np.unique(np.round(np.append(0.0, 180.0 - np.array(away[:-1])), 3))
+
+
+def _growing(first: float, growth: float, widest: float, end: float) -> list[float]:
+    """0 and on until `end`, in steps that grow from the first by a factor, up to the widest."""
+    nodes = [0.0, float(first)]
+    while nodes[-1] < end:
+        nodes.append(nodes[-1] + min((nodes[-1] - nodes[-2]) * growth, widest))
+    return nodes
 
 
 @dataclass(frozen=True)
