@@ -14,9 +14,16 @@ from .format import OF_TABLES, TEXT_LIMIT, Format, Options, Source
 
 PASTED = 2**24  # bytes of pages and papers that are believed: what is made of them takes fifty times as much
 MOST_CELLS = 1_000_000
+MOST_SWELLING = 200  # times what is packed, beyond the first MB
 LOOKED_AT = 60  # rows in which a table has one of at least two numbers
 Rows = list[list]
 Tables = Callable[[Source], Mapping[str, Rows]]  # rows of cells by the table's name
+
+
+def check_swelling(source: Source, size: int, most: int, kind: str) -> None:
+    """Raises InputError for a file that unpacks to more bytes than `most`, or than its kind can honestly hold."""
+    if size > min(most, 2**20 + MOST_SWELLING * len(source.data)):
+        raise source.error(f"unpacks to {size / 1e6:.0f} MB, more than such a {kind} can honestly hold")
 
 
 def format_of_sheets(

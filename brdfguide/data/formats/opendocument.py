@@ -15,7 +15,6 @@ from .format import Source
 
 KIND = re.compile(rb"PK\x03\x04.{26}mimetypeapplication/vnd\.oasis\.opendocument\.spreadsheet", re.DOTALL)
 CONTENT = "content.xml"
-MOST_SWELLING = 200
 MOST_REPEATED = 1000  # cells or rows that one stands for, and that hold something
 PIECE = 2**16
 
@@ -31,9 +30,7 @@ def _tables(source: Source) -> dict[str, _sheets.Rows]:
 
     try:
         with zipfile.ZipFile(io.BytesIO(bytes(source.data))) as archive:
-            size = archive.getinfo(CONTENT).file_size
-            if size > min(4 * _sheets.PASTED, 2**20 + MOST_SWELLING * len(source.data)):
-                raise source.error(f"unpacks to {size / 1e6:.0f} MB, more than such a sheet can honestly hold")
+            _sheets.check_swelling(source, archive.getinfo(CONTENT).file_size, 4 * _sheets.PASTED, "sheet")
             with archive.open(CONTENT) as stream:
                 return _read(source, ElementTree.XMLPullParser(["start", "end"]), stream)
     except InputError:

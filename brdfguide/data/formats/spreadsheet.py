@@ -10,8 +10,6 @@ from . import _sheets
 from ._tables import library
 from .format import TEXT_LIMIT, Source
 
-MOST_SWELLING = 200
-
 
 def recognises(head: bytes) -> bool:
     return head[:4] == b"PK\x03\x04" and (b"xl/" in head or b"[Content_Types].xml" in head[:200])
@@ -39,8 +37,7 @@ def _check_size(source: Source) -> None:
             whole = sum(part.file_size for part in archive.infolist())
     except (zipfile.BadZipFile, OSError, ValueError, EOFError, NotImplementedError, RuntimeError) as error:
         raise source.error(f"a damaged Excel workbook: {error}") from None
-    if whole > min(TEXT_LIMIT, 2**20 + MOST_SWELLING * len(source.data)):
-        raise source.error(f"unpacks to {whole / 1e6:.0f} MB, more than such a workbook can honestly hold")
+    _sheets.check_swelling(source, whole, TEXT_LIMIT, "workbook")
 
 
 FORMAT = _sheets.format_of_sheets("spreadsheet", (".xlsx",), recognises, _tables, word="sheet", kind="Excel workbook")
